@@ -1,0 +1,68 @@
+//! What can go wrong, said so that the reader can mend it: the thing, its value, what is allowed, the remedy.
+
+use thiserror::Error;
+
+/// Every refusal of the library. Nothing is silently repaired.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Error {
+    /// A parameter outside what the scene can do; known before anything runs.
+    #[error("{name} = {value} is not allowed: {allowed}. {remedy}")]
+    Parameter {
+        /// The variable's name as in the model description, such as `box.width`.
+        name: String,
+        /// The value that was given, as text.
+        value: String,
+        /// What is allowed, with numbers.
+        allowed: String,
+        /// What to do about it.
+        remedy: String,
+    },
+    /// A step that cannot be done. The state is the one before the step, so that the caller may retry.
+    #[error("{scene}: step refused at t = {time} s: {what}. {remedy}")]
+    Step {
+        /// The scene's name.
+        scene: &'static str,
+        /// Simulated time at which the trouble showed \[s\].
+        time: f64,
+        /// What happened, with numbers.
+        what: String,
+        /// What to do about it.
+        remedy: String,
+    },
+    /// Saved state that is not ours, is damaged, or belongs to other parameters.
+    #[error("state refused: {what}. {remedy}")]
+    State {
+        /// What is wrong with it.
+        what: String,
+        /// What to do about it.
+        remedy: String,
+    },
+}
+
+impl Error {
+    /// Builds [`Error::Parameter`].
+    pub fn parameter(
+        name: impl Into<String>,
+        value: impl ToString,
+        allowed: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self::Parameter {
+            name: name.into(),
+            value: value.to_string(),
+            allowed: allowed.into(),
+            remedy: remedy.into(),
+        }
+    }
+
+    /// Builds [`Error::State`].
+    pub fn state(what: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::State {
+            what: what.into(),
+            remedy: remedy.into(),
+        }
+    }
+}
+
+/// Result of anything that can be refused.
+pub type Result<T> = std::result::Result<T, Error>;

@@ -1,0 +1,9 @@
+//! Vibrated granular disks as components that plug into other people's simulations.
+//!
+//! SI units throughout; x to the right, y up, angles and angular velocities counter-clockwise.
+//! Imports point one way: `fmi, main -> scene -> measure -> engine -> contact, drive -> geometry`.
+
+pub mod error;
+pub mod scene;
+
+pub use error::{Error, Result};

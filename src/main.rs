@@ -1,0 +1,2 @@
+//! Command line: argument -> library call.
+fn main() {}

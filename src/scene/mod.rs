@@ -1,0 +1,83 @@
+//! Scenes: engines, laws, drives and measures wired together, with their parameters, ranges and variables.
+//!
+//! A [`Scene`] is all that the FMI boundary, the command line and a Rust program need to know. It never names FMI.
+
+pub mod variables;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::error::Result;
+pub use variables::{Causality, Kind, OutputWriter, Quantity, Table, Unit, Value, Values, Variable};
+
+/// What is decided when a component is bundled and can be decided no later, since it changes the list of variables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, serde::Deserialize)]
+pub struct Choice {
+    /// Number of disks.
+    pub disks: u32,
+}
+
+/// Static facts of a scene, for the model description, the documentation page and the command line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Card {
+    /// Scene, such as `packing`.
+    pub scene: &'static str,
+    /// Model identifier, file name and C identifier at once, such as `jostle_packing`.
+    pub identifier: &'static str,
+    /// Engine, such as `molecular-dynamics`.
+    pub engine: &'static str,
+    /// Drive, such as `input` or `sine`.
+    pub drive: &'static str,
+    /// One sentence.
+    pub description: &'static str,
+    /// HTML fragment with the equations and their sources, for the documentation page.
+    pub equations: &'static str,
+    /// Allowed disk counts.
+    pub disks: std::ops::RangeInclusive<u32>,
+    /// Disk count when none is chosen.
+    pub default_disks: u32,
+    /// Default experiment: stop time \[s\].
+    pub stop_time: f64,
+    /// Default experiment: communication step \[s\].
+    pub step_size: f64,
+}
+
+/// A scene of disks that can be stepped, looked at, saved and restored.
+///
+/// Contract: the parameters are frozen in [`Scene::new`]. [`Scene::advance_to`] either reaches `end_time` or leaves the
+/// state as it was. Looking never disturbs: [`Scene::write_outputs`] takes `&self`. Equal states with equal inputs give
+/// equal bits.
+pub trait Scene: Sized + Send + 'static {
+    /// Everything that changes with time, the report of the last step included.
+    type State: Clone + PartialEq + Serialize + DeserializeOwned + Send;
+
+    /// Static facts.
+    fn card() -> Card;
+
+    /// The rows for this choice: parameters, then inputs, then calculated parameters and outputs.
+    fn variables(choice: Choice) -> Vec<Variable>;
+
+    /// Builds the scene at `start_time` \[s\] from the parameters among `values` and the inputs as they stand.
+    ///
+    /// # Errors
+    /// A parameter that the scene cannot work with, by name.
+    fn new(choice: Choice, start_time: f64, values: &Values) -> Result<Self>;
+
+    /// Advances to `end_time` \[s\] under the inputs among `values`.
+    ///
+    /// # Errors
+    /// The step cannot be done; the state is as before the call.
+    fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()>;
+
+    /// Writes every calculated parameter and output, in the order of the rows.
+    fn write_outputs(&self, outputs: OutputWriter<'_>);
+
+    /// The present state.
+    fn state(&self) -> &Self::State;
+
+    /// Goes back (or on) to a state of this same scene with these same parameters.
+    ///
+    /// # Errors
+    /// The state belongs to another scene, disk count or parameter set, or is damaged.
+    fn restore(&mut self, state: &Self::State) -> Result<()>;
+}

@@ -1,0 +1,444 @@
+//! One row per variable: the single source of the XML, of get and set, of range checks and of the documentation page.
+//!
+//! A scene lists its rows once ([`super::Scene::variables`]); everything that shows, checks or stores a variable reads
+//! the row. Values live apart from rows, in [`Values`], so that a rollback copies numbers only.
+
+use std::collections::HashMap;
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+
+/// Who sets a variable, and when (FMI 2.0 section 2.2.7, FMI 3.0 section 2.4.7.4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Causality {
+    /// Set by the user before initialisation ends, frozen from then on.
+    Parameter,
+    /// Computed from the parameters when initialisation ends, constant from then on.
+    CalculatedParameter,
+    /// Set by the importer at every communication point.
+    Input,
+    /// Computed by the scene.
+    Output,
+}
+
+/// What a variable holds.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    /// A continuous quantity in SI units.
+    Real(Quantity),
+    /// A whole number that fits 32 bits, such as a count of contacts.
+    Integer {
+        /// Allowed values.
+        range: RangeInclusive<i64>,
+        /// Start value.
+        start: i64,
+    },
+    /// A whole number of 64 bits, such as a seed. FMI 2.0 has only 32 bits and narrows the range.
+    Long {
+        /// Allowed values.
+        range: RangeInclusive<i64>,
+        /// Start value.
+        start: i64,
+    },
+}
+
+/// Unit, range and start of a real variable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// Unit, one of [`Unit`].
+    pub unit: Unit,
+    /// Smallest allowed value, inclusive; `f64::NEG_INFINITY` for none.
+    pub min: f64,
+    /// Largest allowed value, inclusive; `f64::INFINITY` for none.
+    pub max: f64,
+    /// Size that a typical value has, for importers that scale tolerances.
+    pub nominal: f64,
+    /// Start value of parameters and inputs. Outputs ignore it: theirs is computed.
+    pub start: f64,
+}
+
+/// Units in use, each with its exponents of the SI base units for the model description.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)]
+pub enum Unit {
+    One,
+    Metre,
+    MetrePerSecond,
+    MetrePerSecondSquared,
+    Radian,
+    RadianPerSecond,
+    Second,
+    Hertz,
+    Kilogram,
+    KilogramPerSecond,
+    KilogramPerSquareMetre,
+    Newton,
+    NewtonPerMetre,
+    NewtonSecond,
+    Joule,
+}
+
+impl Unit {
+    /// Name as written in the model description.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::One => "1",
+            Self::Metre => "m",
+            Self::MetrePerSecond => "m/s",
+            Self::MetrePerSecondSquared => "m/s2",
+            Self::Radian => "rad",
+            Self::RadianPerSecond => "rad/s",
+            Self::Second => "s",
+            Self::Hertz => "Hz",
+            Self::Kilogram => "kg",
+            Self::KilogramPerSecond => "kg/s",
+            Self::KilogramPerSquareMetre => "kg/m2",
+            Self::Newton => "N",
+            Self::NewtonPerMetre => "N/m",
+            Self::NewtonSecond => "N.s",
+            Self::Joule => "J",
+        }
+    }
+
+    /// Exponents of (kg, m, s, rad) in SI base units.
+    pub const fn exponents(self) -> (i32, i32, i32, i32) {
+        match self {
+            Self::One => (0, 0, 0, 0),
+            Self::Metre => (0, 1, 0, 0),
+            Self::MetrePerSecond => (0, 1, -1, 0),
+            Self::MetrePerSecondSquared => (0, 1, -2, 0),
+            Self::Radian => (0, 0, 0, 1),
+            Self::RadianPerSecond => (0, 0, -1, 1),
+            Self::Second => (0, 0, 1, 0),
+            Self::Hertz => (0, 0, -1, 0),
+            Self::Kilogram => (1, 0, 0, 0),
+            Self::KilogramPerSecond => (1, 0, -1, 0),
+            Self::KilogramPerSquareMetre => (1, -2, 0, 0),
+            Self::Newton => (1, 1, -2, 0),
+            Self::NewtonPerMetre => (1, 0, -2, 0),
+            Self::NewtonSecond => (1, 1, -1, 0),
+            Self::Joule => (1, 2, -2, 0),
+        }
+    }
+}
+
+/// One variable of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variable {
+    /// Structured name, such as `contact.friction` or `disk.angle[3]` (counted from 1).
+    pub name: String,
+    /// One sentence for the model description and the documentation page.
+    pub description: String,
+    /// Who sets it, and when.
+    pub causality: Causality,
+    /// What it holds.
+    pub kind: Kind,
+}
+
+impl Variable {
+    /// A fixed real parameter with its allowed range and default.
+    pub fn parameter(name: &str, unit: Unit, range: RangeInclusive<f64>, start: f64, description: &str) -> Self {
+        let nominal = if start == 0.0 { 1.0 } else { start.abs() };
+        let quantity = Quantity {
+            unit,
+            min: *range.start(),
+            max: *range.end(),
+            nominal,
+            start,
+        };
+        Self {
+            name: name.into(),
+            description: description.into(),
+            causality: Causality::Parameter,
+            kind: Kind::Real(quantity),
+        }
+    }
+
+    /// A fixed parameter that is a whole number of 64 bits.
+    pub fn long_parameter(name: &str, range: RangeInclusive<i64>, start: i64, description: &str) -> Self {
+        Self {
+            name: name.into(),
+            description: description.into(),
+            causality: Causality::Parameter,
+            kind: Kind::Long { range, start },
+        }
+    }
+
+    /// A continuous input that starts at zero and may take any finite value.
+    pub fn input(name: &str, unit: Unit, nominal: f64, description: &str) -> Self {
+        Self::unbounded(name, unit, nominal, description, Causality::Input)
+    }
+
+    /// A continuous output.
+    pub fn output(name: impl Into<String>, unit: Unit, nominal: f64, description: impl Into<String>) -> Self {
+        Self::unbounded(name, unit, nominal, description, Causality::Output)
+    }
+
+    /// A real that is known when initialisation ends and stays.
+    pub fn calculated(name: impl Into<String>, unit: Unit, nominal: f64, description: impl Into<String>) -> Self {
+        Self::unbounded(name, unit, nominal, description, Causality::CalculatedParameter)
+    }
+
+    /// A whole number among the outputs, such as the contacts that are closed.
+    pub fn count_output(name: &str, description: &str) -> Self {
+        Self {
+            name: name.into(),
+            description: description.into(),
+            causality: Causality::Output,
+            kind: Kind::Integer {
+                range: 0..=i64::from(i32::MAX),
+                start: 0,
+            },
+        }
+    }
+
+    fn unbounded(
+        name: impl Into<String>,
+        unit: Unit,
+        nominal: f64,
+        description: impl Into<String>,
+        causality: Causality,
+    ) -> Self {
+        let quantity = Quantity {
+            unit,
+            min: f64::NEG_INFINITY,
+            max: f64::INFINITY,
+            nominal,
+            start: 0.0,
+        };
+        Self {
+            name: name.into(),
+            description: description.into(),
+            causality,
+            kind: Kind::Real(quantity),
+        }
+    }
+
+    /// Start value as the table stores it.
+    pub fn start(&self) -> Value {
+        match &self.kind {
+            Kind::Real(quantity) => Value::Real(quantity.start),
+            Kind::Integer { start, .. } | Kind::Long { start, .. } => Value::Integer(*start),
+        }
+    }
+
+    /// Says whether `value` may be given to this variable, and if not, why and what to do.
+    pub fn check(&self, value: Value) -> Result<()> {
+        match (&self.kind, value) {
+            (Kind::Real(quantity), Value::Real(real)) => {
+                if real.is_finite() && (quantity.min..=quantity.max).contains(&real) {
+                    return Ok(());
+                }
+                Err(Error::parameter(
+                    &self.name,
+                    format!("{real} {}", quantity.unit.name()),
+                    format!("a finite number from {} to {}", quantity.min, quantity.max),
+                    "Give a value in this range.",
+                ))
+            }
+            (Kind::Integer { range, .. } | Kind::Long { range, .. }, Value::Integer(integer)) => {
+                if range.contains(&integer) {
+                    return Ok(());
+                }
+                Err(Error::parameter(
+                    &self.name,
+                    integer,
+                    format!("a whole number from {} to {}", range.start(), range.end()),
+                    "Give a value in this range.",
+                ))
+            }
+            (Kind::Real(_), Value::Integer(integer)) => Err(Error::parameter(
+                &self.name,
+                integer,
+                "a real number",
+                "Set it as a real variable.",
+            )),
+            (_, Value::Real(real)) => Err(Error::parameter(
+                &self.name,
+                real,
+                "a whole number",
+                "Set it as an integer variable.",
+            )),
+        }
+    }
+}
+
+/// A value of a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Value {
+    /// Of a [`Kind::Real`].
+    Real(f64),
+    /// Of a [`Kind::Integer`] or [`Kind::Long`].
+    Integer(i64),
+}
+
+/// The rows of a scene with an index by name. Made once per instance, shared and never changed.
+#[derive(Debug)]
+pub struct Table {
+    rows: Vec<Variable>,
+    by_name: HashMap<String, usize>,
+}
+
+impl Table {
+    /// Indexes the rows. Two rows of one name are a defect of the scene and panic.
+    pub fn new(rows: Vec<Variable>) -> Self {
+        let mut by_name = HashMap::with_capacity(rows.len());
+        for (index, row) in rows.iter().enumerate() {
+            let earlier = by_name.insert(row.name.clone(), index);
+            assert!(earlier.is_none(), "two variables are named {}", row.name);
+        }
+        Self { rows, by_name }
+    }
+
+    /// All rows, in the order of their value references.
+    pub fn rows(&self) -> &[Variable] {
+        &self.rows
+    }
+
+    /// Position of the row called `name`.
+    pub fn position(&self, name: &str) -> Option<usize> {
+        self.by_name.get(name).copied()
+    }
+}
+
+/// The present value of every row of a [`Table`].
+#[derive(Debug, Clone)]
+pub struct Values {
+    table: Arc<Table>,
+    values: Vec<Value>,
+}
+
+impl PartialEq for Values {
+    fn eq(&self, other: &Self) -> bool {
+        self.values == other.values
+    }
+}
+
+impl Values {
+    /// Start values.
+    pub fn new(table: Arc<Table>) -> Self {
+        let values = table.rows().iter().map(Variable::start).collect();
+        Self { table, values }
+    }
+
+    /// The rows that these values belong to.
+    pub fn table(&self) -> &Arc<Table> {
+        &self.table
+    }
+
+    /// All values in the order of the rows.
+    pub fn as_slice(&self) -> &[Value] {
+        &self.values
+    }
+
+    /// Value of the row at `position`.
+    pub fn get(&self, position: usize) -> Option<Value> {
+        self.values.get(position).copied()
+    }
+
+    /// Stores a value at `position` after checking it against the row's kind and range.
+    pub fn set(&mut self, position: usize, value: Value) -> Result<()> {
+        let Some(row) = self.table.rows().get(position) else {
+            return Err(Error::parameter(
+                "value reference",
+                position,
+                format!("0 to {}", self.values.len().saturating_sub(1)),
+                "Take the value references from the model description.",
+            ));
+        };
+        row.check(value)?;
+        self.values[position] = value;
+        Ok(())
+    }
+
+    /// Stores a value by name after checking it.
+    pub fn set_by_name(&mut self, name: &str, value: Value) -> Result<()> {
+        let Some(position) = self.table.position(name) else {
+            return Err(Error::parameter(
+                "variable",
+                name,
+                "a variable of this scene",
+                "List them: jostle describe.",
+            ));
+        };
+        self.set(position, value)
+    }
+
+    /// The real called `name`. A name that the scene does not list is a defect of the scene and panics.
+    pub fn real(&self, name: &str) -> f64 {
+        match self.table.position(name).map(|position| self.values[position]) {
+            Some(Value::Real(real)) => real,
+            other => panic!("the scene has no real variable {name} (found {other:?})"),
+        }
+    }
+
+    /// The whole number called `name`. A name that the scene does not list is a defect of the scene and panics.
+    pub fn integer(&self, name: &str) -> i64 {
+        match self.table.position(name).map(|position| self.values[position]) {
+            Some(Value::Integer(integer)) => integer,
+            other => panic!("the scene has no integer variable {name} (found {other:?})"),
+        }
+    }
+
+    /// Starts writing outputs and calculated parameters, in the order of the rows.
+    pub fn writer(&mut self) -> OutputWriter<'_> {
+        OutputWriter {
+            rows: self.table.rows(),
+            values: &mut self.values,
+            next: 0,
+        }
+    }
+}
+
+/// Writes computed rows one after the other; debug builds check that name and order are those of the table.
+pub struct OutputWriter<'values> {
+    rows: &'values [Variable],
+    values: &'values mut [Value],
+    next: usize,
+}
+
+impl OutputWriter<'_> {
+    /// Next computed row is the real called `name`.
+    pub fn real(&mut self, name: &str, value: f64) {
+        self.put(|row| row == name, Value::Real(value));
+    }
+
+    /// Next computed row is the whole number called `name`.
+    pub fn integer(&mut self, name: &str, value: i64) {
+        self.put(|row| row == name, Value::Integer(value));
+    }
+
+    /// Next computed rows are the reals `name[1]`, `name[2]`, ...
+    pub fn reals(&mut self, name: &str, values: impl IntoIterator<Item = f64>) {
+        for value in values {
+            self.put(|row| row.starts_with(name) && row.ends_with(']'), Value::Real(value));
+        }
+    }
+
+    /// Every computed row must have been written; checked in debug builds.
+    pub fn finish(mut self) {
+        self.skip_given();
+        debug_assert_eq!(self.next, self.rows.len(), "the scene left outputs unwritten");
+    }
+
+    fn skip_given(&mut self) {
+        let given = |row: &Variable| matches!(row.causality, Causality::Parameter | Causality::Input);
+        while self.rows.get(self.next).is_some_and(given) {
+            self.next += 1;
+        }
+    }
+
+    fn put(&mut self, expected: impl Fn(&str) -> bool, value: Value) {
+        self.skip_given();
+        debug_assert!(
+            expected(&self.rows[self.next].name),
+            "row {} is not next",
+            self.rows[self.next].name
+        );
+        self.values[self.next] = value;
+        self.next += 1;
+    }
+}

@@ -3,7 +3,11 @@
 //! SI units throughout; x to the right, y up, angles and angular velocities counter-clockwise.
 //! Imports point one way: `fmi, main -> scene -> measure -> engine -> contact, drive -> geometry`.
 
+pub mod contact;
+pub mod drive;
+pub mod engine;
 pub mod error;
+pub mod geometry;
 pub mod scene;
 
 pub use error::{Error, Result};

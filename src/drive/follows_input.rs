@@ -1,0 +1,79 @@
+//! Base that follows the importer's inputs along cubics without jumps in position or velocity.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Drive, Motion};
+
+/// One communication step of base motion: the cubic from the present position and velocity to the predicted ones.
+///
+/// Inputs given at time t predict `displacement + h velocity` and `velocity` at t + h. An importer that samples a smooth
+/// motion at 1 kHz thus moves the base smoothly instead of hammering the grains at each sample.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct FollowsInput {
+    start_time: f64,
+    duration: f64,
+    /// Coefficients of 1, u, u^2, u^3 with u = (t - start_time) / duration \[m\].
+    coefficients: [f64; 4],
+}
+
+impl FollowsInput {
+    /// Base that keeps a constant velocity \[m/s\] through `displacement` \[m\] at `time` \[s\] until it is aimed.
+    pub fn uniform(time: f64, displacement: f64, velocity: f64) -> Self {
+        Self { start_time: time, duration: 1.0, coefficients: [displacement, velocity, 0.0, 0.0] }
+    }
+
+    /// Goes on from where the base is at `time` \[s\] so that after `duration` \[s\] it is where the inputs predict.
+    ///
+    /// Source: cubic Hermite interpolation.
+    pub fn aim(&mut self, time: f64, duration: f64, displacement: f64, velocity: f64) {
+        let from = self.motion(time);
+        let target = displacement + duration * velocity;
+        let (start_slope, end_slope) = (from.velocity * duration, velocity * duration);
+        let rise = target - from.displacement;
+        self.start_time = time;
+        self.duration = duration;
+        self.coefficients = [
+            from.displacement,
+            start_slope,
+            3.0 * rise - 2.0 * start_slope - end_slope,
+            start_slope + end_slope - 2.0 * rise,
+        ];
+    }
+}
+
+impl Drive for FollowsInput {
+    fn motion(&self, time: f64) -> Motion {
+        let [c0, c1, c2, c3] = self.coefficients;
+        let u = (time - self.start_time) / self.duration;
+        Motion {
+            displacement: c0 + u * (c1 + u * (c2 + u * c3)),
+            velocity: (c1 + u * (2.0 * c2 + u * 3.0 * c3)) / self.duration,
+            acceleration: (2.0 * c2 + u * 6.0 * c3) / self.duration.powi(2),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reaches_the_prediction_without_jumps() {
+        let mut base = FollowsInput::uniform(2.0, 0.1, -0.3);
+        base.aim(2.0, 0.25, 0.2, 0.7);
+        let start = base.motion(2.0);
+        let end = base.motion(2.25);
+        assert!((start.displacement - 0.1).abs() < 1e-15 && (start.velocity + 0.3).abs() < 1e-15);
+        assert!((end.displacement - (0.2 + 0.25 * 0.7)).abs() < 1e-15 && (end.velocity - 0.7).abs() < 1e-14);
+    }
+
+    /// A cubic that the inputs sample exactly at the end of every step is reproduced: the interpolant is of third order.
+    #[test]
+    fn acceleration_is_the_derivative_of_velocity() {
+        let mut base = FollowsInput::uniform(0.0, 0.0, 0.0);
+        base.aim(0.0, 1e-3, 1e-5, 0.02);
+        let (before, after, middle) = (base.motion(4e-4), base.motion(6e-4), base.motion(5e-4));
+        assert!(((after.velocity - before.velocity) / 2e-4 - middle.acceleration).abs() < 1e-7);
+        assert!(((after.displacement - before.displacement) / 2e-4 - middle.velocity).abs() < 1e-4);
+    }
+}

@@ -1,0 +1,29 @@
+//! Motion of the vibrating base: time in, displacement, velocity and acceleration out.
+//!
+//! A drive is a type, so that a scene compiles only the one it has.
+
+mod follows_input;
+mod sine;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+pub use follows_input::FollowsInput;
+pub use sine::Sine;
+
+/// Vertical motion of the base at one instant.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, serde::Deserialize)]
+pub struct Motion {
+    /// Displacement from the rest position, up \[m\].
+    pub displacement: f64,
+    /// Velocity, up \[m/s\].
+    pub velocity: f64,
+    /// Acceleration, up \[m/s2\].
+    pub acceleration: f64,
+}
+
+/// A motion of the base as a function of time. It is part of the state: what changes in it is saved and restored.
+pub trait Drive: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static {
+    /// Motion at `time` \[s\].
+    fn motion(&self, time: f64) -> Motion;
+}

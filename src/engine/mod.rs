@@ -1,0 +1,3 @@
+//! What advances time.
+
+pub mod molecular_dynamics;

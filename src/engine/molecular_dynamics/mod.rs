@@ -1,0 +1,412 @@
+//! Molecular dynamics: disks with soft contacts, stepped on a fixed grid of time.
+//!
+//! Needs: radii and masses, contact laws, walls, a drive. Guarantees: the trajectory lives on the grid
+//! `start + n time_step` alone. A look between two grid points takes one short step on a copy, so that where and how
+//! often one looks changes no bit of what follows. Momentum is kept to rounding: the walls' impulses obey the recursion
+//! of the momenta. Not here: what forces are (`contact`), how the base moves (`drive`).
+
+mod contacts;
+mod forces;
+mod integrator;
+mod neighbours;
+mod state;
+mod time_step;
+
+use std::marker::PhantomData;
+
+use crate::drive::Drive;
+use crate::geometry::{Disk, Wall};
+
+pub use contacts::{AtWall, Pair, SkinMemory};
+pub use forces::ContactLaws;
+pub use integrator::{Coordinates, Gear5, Integrator, VelocityVerlet};
+pub use state::State;
+pub use time_step::TimeStepLimits;
+
+use forces::Tally;
+use neighbours::{CellGrid, Cloud};
+
+/// What stays as it is during a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setup {
+    /// Contact laws.
+    pub laws: ContactLaws,
+    /// Walls; those that follow the base move with the drive.
+    pub walls: Vec<Wall>,
+    /// Mass of each disk \[kg\]; the moment of inertia is that of a uniform disk.
+    pub masses: Vec<f64>,
+    /// Gravity \[m/s2\], downwards.
+    pub gravity: f64,
+    /// Time step \[s\].
+    pub time_step: f64,
+    /// Time of step 0 \[s\].
+    pub start_time: f64,
+}
+
+/// What stopped a run, with the time \[s\] at which it showed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Breakdown {
+    /// Two bodies overlap by `overlap` \[m\], more than half of the smallest radius \[m\].
+    TooDeep {
+        /// Time \[s\].
+        time: f64,
+        /// Overlap \[m\].
+        overlap: f64,
+        /// Largest allowed overlap \[m\].
+        allowed: f64,
+    },
+    /// A disk moved by `distance` \[m\] in one time step, more than half of the smallest radius \[m\].
+    TooFast {
+        /// Time \[s\].
+        time: f64,
+        /// Distance in one step \[m\].
+        distance: f64,
+        /// Largest allowed distance \[m\].
+        allowed: f64,
+    },
+    /// A position is no longer a number.
+    NotFinite {
+        /// Time \[s\].
+        time: f64,
+    },
+    /// More time steps are asked for in one call than can be done.
+    TooManySteps {
+        /// Time \[s\].
+        time: f64,
+        /// Steps asked for.
+        steps: f64,
+    },
+}
+
+/// Energies of the disks \[J\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Energies {
+    /// Translation and rotation.
+    pub kinetic: f64,
+    /// In gravity, zero where the disks started.
+    pub potential: f64,
+    /// In springs and skins of closed contacts.
+    pub elastic: f64,
+}
+
+/// Largest number of time steps that one call may ask for: about a day of a small scene.
+const MOST_STEPS: f64 = 1e11;
+
+/// Grid points closer than this fraction of a time step to the end count as the end.
+const SNAP: f64 = 1e-6;
+
+/// The engine: integrator I, motion of the base D.
+#[derive(Debug, Clone)]
+pub struct MolecularDynamics<I, D> {
+    setup: Setup,
+    radii: Vec<f64>,
+    /// 1/m, 1/m, 1/I of each disk, then 1 for each impulse of a wall.
+    inverse_mass: Vec<f64>,
+    /// Weight as a flat force.
+    weight: Vec<f64>,
+    smallest_radius: f64,
+    margin: f64,
+    start_height: f64,
+    state: State<D>,
+    /// The state at the last time that was asked for, if that is no grid point.
+    between: Option<State<D>>,
+    backup: State<D>,
+    force: Vec<f64>,
+    grid: CellGrid,
+    integrator: PhantomData<I>,
+}
+
+impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
+    /// Disks at rest where they are, at `setup.start_time`, under the drive.
+    pub fn new(setup: Setup, disks: &[Disk], drive: D) -> Self {
+        let (mut position, mut inverse_mass, mut weight) = (Vec::new(), Vec::new(), Vec::new());
+        let mut start_height = 0.0;
+        for (disk, mass) in disks.iter().zip(&setup.masses) {
+            position.extend([disk.x, disk.y, 0.0]);
+            let inertia = 0.5 * mass * disk.radius * disk.radius;
+            inverse_mass.extend([1.0 / mass, 1.0 / mass, 1.0 / inertia]);
+            weight.extend([0.0, -mass * setup.gravity, 0.0]);
+            start_height += mass * disk.y;
+        }
+        let length = position.len() + 2 * setup.walls.len();
+        position.resize(length, 0.0);
+        inverse_mass.resize(length, 1.0);
+        weight.resize(length, 0.0);
+        let radii: Vec<f64> = disks.iter().map(|disk| disk.radius).collect();
+        let smallest_radius = radii.iter().copied().fold(f64::INFINITY, f64::min);
+        let state = State {
+            steps: 0,
+            base: drive.motion(setup.start_time),
+            drive,
+            velocity: vec![0.0; length],
+            acceleration: vec![0.0; length],
+            higher: vec![0.0; length * I::HIGHER_DERIVATIVES],
+            position,
+            pairs: Vec::new(),
+            at_walls: Vec::new(),
+            searched: Vec::new(),
+            searched_base: 0.0,
+            searched_step: 0,
+            base_force: 0.0,
+            dissipated_power: 0.0,
+            energy_input: 0.0,
+            energy_lost: 0.0,
+            contacts: 0,
+        };
+        let mut engine = Self {
+            margin: MARGIN * smallest_radius,
+            setup,
+            radii,
+            inverse_mass,
+            force: vec![0.0; length],
+            weight,
+            smallest_radius,
+            start_height,
+            backup: state.clone(),
+            between: None,
+            state,
+            grid: CellGrid::default(),
+            integrator: PhantomData,
+        };
+        engine.set_motion(|_| ());
+        engine
+    }
+
+    /// Changes positions and velocities by hand (initial states of tests and studies) and starts afresh from there.
+    pub fn set_motion(&mut self, change: impl FnOnce(&mut State<D>)) {
+        change(&mut self.state);
+        self.search();
+        let tally = self.evaluate(0.0);
+        for (acceleration, (force, inverse)) in
+            self.state.acceleration.iter_mut().zip(self.force.iter().zip(&self.inverse_mass))
+        {
+            *acceleration = force * inverse;
+        }
+        self.state.dissipated_power = tally.dissipated_power;
+        self.state.contacts = tally.contacts;
+        self.between = None;
+    }
+
+    /// Advances to `end_time` \[s\]. On a breakdown the state is as before the call.
+    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
+        let step = self.setup.time_step;
+        let elapsed = (end_time - self.setup.start_time) / step;
+        let target = (elapsed + SNAP).floor().max(0.0);
+        let asked = target - self.state.steps as f64;
+        if asked > MOST_STEPS {
+            return Err(Breakdown::TooManySteps { time: self.time(), steps: asked });
+        }
+        self.backup.clone_from(&self.state);
+        let outcome =
+            self.run_to(target as u64).and_then(|()| self.look(end_time)).and_then(|()| self.check_finite(end_time));
+        if outcome.is_err() {
+            std::mem::swap(&mut self.state, &mut self.backup);
+        }
+        outcome
+    }
+
+    /// The state at the time last asked for.
+    pub fn now(&self) -> &State<D> {
+        self.between.as_ref().unwrap_or(&self.state)
+    }
+
+    /// The state on the time grid: all that the future depends on.
+    pub fn state(&self) -> &State<D> {
+        &self.state
+    }
+
+    /// Continues from `state`, seen at `time` \[s\].
+    pub fn restore(&mut self, state: &State<D>, time: f64) -> Result<(), Breakdown> {
+        self.state.clone_from(state);
+        self.look(time)
+    }
+
+    /// The drive, to be aimed at new inputs.
+    pub fn drive_mut(&mut self) -> &mut D {
+        &mut self.state.drive
+    }
+
+    /// What stays as it is.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// Radii \[m\].
+    pub fn radii(&self) -> &[f64] {
+        &self.radii
+    }
+
+    /// Time of the present grid point \[s\].
+    pub fn time(&self) -> f64 {
+        self.time_of(self.state.steps)
+    }
+
+    /// Impulse (x, y) \[N.s\] that the wall has given to the disks since the start, at the time last asked for.
+    pub fn impulse_of_wall(&self, wall: usize) -> [f64; 2] {
+        let first = 3 * self.radii.len() + 2 * wall;
+        let velocity = &self.now().velocity;
+        [velocity[first], velocity[first + 1]]
+    }
+
+    /// Total momentum (x, y) \[kg.m/s\] at the time last asked for.
+    pub fn momentum(&self) -> [f64; 2] {
+        let rates = self.now().rates().iter().zip(&self.setup.masses);
+        rates.fold([0.0; 2], |[x, y], (rate, mass)| [x + mass * rate[0], y + mass * rate[1]])
+    }
+
+    /// Energies at the time last asked for.
+    pub fn energies(&self) -> Energies {
+        let state = self.now();
+        let (mut kinetic, mut height) = (0.0, 0.0);
+        for (((place, rate), mass), radius) in
+            state.places().iter().zip(state.rates()).zip(&self.setup.masses).zip(&self.radii)
+        {
+            let [vx, vy, angular_velocity] = *rate;
+            kinetic += 0.5 * mass * (vx * vx + vy * vy + 0.5 * (radius * angular_velocity).powi(2));
+            height += mass * place[1];
+        }
+        let places = state.places();
+        let laws = &self.setup.laws;
+        let mut elastic = 0.0;
+        for pair in state.pairs.iter().filter(|pair| pair.skin.is_closed()) {
+            let (a, b) = (places[pair.first as usize], places[pair.second as usize]);
+            let overlap = pair.reach - (a[0] - b[0]).hypot(a[1] - b[1]);
+            elastic += laws.normal.energy(overlap) + laws.skin.energy(pair.skin.stretch);
+        }
+        for near in state.at_walls.iter().filter(|near| near.skin.is_closed()) {
+            let [x, y, _] = places[near.disk as usize];
+            let distance = self.setup.walls[near.wall as usize].distance(x, y, state.base.displacement);
+            let overlap = self.radii[near.disk as usize] - distance;
+            elastic += laws.normal.energy(overlap) + laws.skin.energy(near.skin.stretch);
+        }
+        Energies { kinetic, potential: self.setup.gravity * (height - self.start_height), elastic }
+    }
+
+    fn time_of(&self, steps: u64) -> f64 {
+        self.setup.start_time + steps as f64 * self.setup.time_step
+    }
+
+    fn run_to(&mut self, target: u64) -> Result<(), Breakdown> {
+        while self.state.steps < target {
+            self.step(self.setup.time_step, self.time_of(self.state.steps + 1))?;
+            self.state.steps += 1;
+        }
+        Ok(())
+    }
+
+    /// Takes one short step on a copy if `time` lies between grid points; else there is nothing to copy.
+    fn look(&mut self, time: f64) -> Result<(), Breakdown> {
+        let ahead = time - self.time();
+        if ahead.abs() <= SNAP * self.setup.time_step {
+            self.between = None;
+            return Ok(());
+        }
+        let mut copy = self.between.take().unwrap_or_else(|| self.state.clone());
+        copy.clone_from(&self.state);
+        std::mem::swap(&mut self.state, &mut copy);
+        let outcome = self.step(ahead, time);
+        std::mem::swap(&mut self.state, &mut copy);
+        self.between = Some(copy);
+        outcome
+    }
+
+    /// One step of length `step` \[s\] that ends at `time` \[s\].
+    fn step(&mut self, step: f64, time: f64) -> Result<(), Breakdown> {
+        I::predict(coordinates(&mut self.state), step);
+        let base_before = self.state.base.displacement;
+        self.state.base = self.state.drive.motion(time);
+        self.search_if_due(time)?;
+
+        let base_force_before = self.state.base_force;
+        let tally = self.evaluate(step);
+        if tally.deepest > 0.5 * self.smallest_radius {
+            let allowed = 0.5 * self.smallest_radius;
+            return Err(Breakdown::TooDeep { time, overlap: tally.deepest, allowed });
+        }
+        I::correct(coordinates(&mut self.state), &self.force, &self.inverse_mass, step);
+
+        let state = &mut self.state;
+        state.energy_input +=
+            0.5 * (base_force_before + state.base_force) * (state.base.displacement - base_before);
+        state.energy_lost += 0.5 * step * (state.dissipated_power + tally.dissipated_power) + tally.slip_heat;
+        state.dissipated_power = tally.dissipated_power;
+        state.contacts = tally.contacts;
+        Ok(())
+    }
+
+    /// Forces at the present positions, velocities and base motion, into `self.force`.
+    fn evaluate(&mut self, step: f64) -> Tally {
+        let count = self.radii.len();
+        let state = &mut self.state;
+        self.force.copy_from_slice(&self.weight);
+        let (on_disks, from_walls) = self.force.split_at_mut(3 * count);
+        let (on_disks, _) = on_disks.as_chunks_mut();
+        let disks = (state.position.as_chunks().0, state.velocity.as_chunks().0, self.radii.as_slice());
+        let mut tally = Tally::default();
+        let laws = self.setup.laws;
+        laws.between_disks(&mut state.pairs, disks, on_disks, step, &mut tally);
+        let walls = &self.setup.walls;
+        laws.at_walls(&mut state.at_walls, walls, state.base, disks, (on_disks, from_walls), step, &mut tally);
+        let vertical = from_walls.chunks_exact(2).zip(walls);
+        state.base_force = vertical.map(|(force, wall)| wall.follows_base * force[1]).sum();
+        tally
+    }
+
+    /// Searches anew if a disk or the base has moved by half the margin since the last search.
+    fn search_if_due(&mut self, time: f64) -> Result<(), Breakdown> {
+        let state = &self.state;
+        let mut farthest = 0.0;
+        for (now, then) in state.places().iter().zip(&state.searched) {
+            let (dx, dy) = (now[0] - then[0], now[1] - then[1]);
+            let squared = dx * dx + dy * dy;
+            farthest = if squared > farthest { squared } else { farthest };
+        }
+        let base_moved = (state.base.displacement - state.searched_base).abs();
+        let limit = 0.5 * self.margin;
+        if farthest < limit * limit && base_moved < limit {
+            return Ok(());
+        }
+        self.check_pace(farthest.sqrt(), time)?;
+        self.search();
+        Ok(())
+    }
+
+    /// A list that lasts for one step only and is outrun by half a radius can miss contacts.
+    fn check_pace(&self, farthest: f64, time: f64) -> Result<(), Breakdown> {
+        let allowed = 0.5 * self.smallest_radius;
+        if self.state.steps <= self.state.searched_step + 1 && farthest > allowed {
+            return Err(Breakdown::TooFast { time, distance: farthest, allowed });
+        }
+        Ok(())
+    }
+
+    /// Comparisons with what is no number are false and trip no other check.
+    fn check_finite(&self, time: f64) -> Result<(), Breakdown> {
+        let finite = self.now().position.iter().all(|position| position.is_finite());
+        if finite { Ok(()) } else { Err(Breakdown::NotFinite { time }) }
+    }
+
+    fn search(&mut self) {
+        let count = self.radii.len();
+        let state = &mut self.state;
+        state.searched.clear();
+        state.searched.extend_from_slice(&state.position.as_chunks().0[..count]);
+        state.searched_base = state.base.displacement;
+        state.searched_step = state.steps;
+        let cloud = Cloud { places: &state.searched, radii: &self.radii, margin: self.margin };
+        self.grid.find_pairs(cloud, &mut state.pairs);
+        self.grid.find_at_walls(cloud, &self.setup.walls, state.searched_base, &mut state.at_walls);
+    }
+}
+
+/// Gap, in smallest radii, up to which disks are candidates: lists last long at rest and stay short in flight.
+const MARGIN: f64 = 0.15;
+
+fn coordinates<D>(state: &mut State<D>) -> Coordinates<'_> {
+    Coordinates {
+        position: &mut state.position,
+        velocity: &mut state.velocity,
+        acceleration: &mut state.acceleration,
+        higher: &mut state.higher,
+    }
+}

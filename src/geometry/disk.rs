@@ -1,0 +1,14 @@
+//! A disk at rest.
+
+use serde::{Deserialize, Serialize};
+
+/// A disk: centre and radius \[m\].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Disk {
+    /// Centre, to the right \[m\].
+    pub x: f64,
+    /// Centre, up \[m\].
+    pub y: f64,
+    /// Radius \[m\].
+    pub radius: f64,
+}

@@ -1,0 +1,262 @@
+//! Scene `packing`: disks in a box on a vibrating bottom, by molecular dynamics (P 2.1, 2.2, 3.2, 4.2).
+
+mod equations;
+mod rows;
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::{ElasticSkin, LinearDashpot};
+use crate::drive::{FollowsInput, Sine};
+use crate::engine::molecular_dynamics::{
+    Breakdown, ContactLaws, Integrator, MolecularDynamics, Setup, State, TimeStepLimits, VelocityVerlet,
+};
+use crate::error::{Error, Result};
+use crate::geometry::{Disk, Wall};
+use crate::packing::{RadiusDistribution, advancing_front};
+
+use super::base_drive::BaseDrive;
+use super::variables::{OutputWriter, Values, Variable};
+use super::{Card, Choice, Scene};
+
+/// Packing whose base follows the inputs `base.displacement` and `base.velocity`.
+pub type PackingOnInput = Packing<FollowsInput, VelocityVerlet>;
+
+/// Packing whose base moves as a sine.
+pub type PackingOnSine = Packing<Sine, VelocityVerlet>;
+
+const NAME: &str = "packing";
+
+/// Index of the vibrating floor among the walls.
+const FLOOR: usize = 0;
+
+/// Disks in a box of two walls and a vibrating floor: drive D, integrator I.
+#[derive(Debug)]
+pub struct Packing<D, I> {
+    engine: MolecularDynamics<I, D>,
+    limits: TimeStepLimits,
+    /// Total energy at the start \[J\], for the residual.
+    start_energy: f64,
+    state: PackingState<D>,
+}
+
+/// State of a [`Packing`]: the engine's, and the report of the last communication step.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+pub struct PackingState<D> {
+    /// Disks, contacts and base on the time grid.
+    pub engine: State<D>,
+    /// Time reached \[s\].
+    pub time: f64,
+    /// Vertical impulse of the base on the disks up to `time` \[N.s\].
+    pub impulse: f64,
+    /// Vertical force of the disks on the base \[N\], mean over the last communication step.
+    pub reaction_force: f64,
+}
+
+impl<D: Clone> Clone for PackingState<D> {
+    fn clone(&self) -> Self {
+        Self { engine: self.engine.clone(), ..*self }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.engine.clone_from(&source.engine);
+        (self.time, self.impulse, self.reaction_force) = (source.time, source.impulse, source.reaction_force);
+    }
+}
+
+impl<D: BaseDrive, I: Integrator> Packing<D, I> {
+    /// A packing of given `disks` at rest, in a box of the width that `values` tell.
+    ///
+    /// # Errors
+    /// A time step that the contacts do not allow, by name.
+    pub fn of_disks(disks: &[Disk], start_time: f64, values: &Values) -> Result<Self> {
+        let drive = D::new(start_time, values)?;
+        let normal =
+            LinearDashpot { stiffness: values.real("contact.normal_stiffness"), damping: values.real("contact.normal_damping") };
+        let skin = ElasticSkin {
+            stiffness: values.real("contact.stiffness_ratio") * normal.stiffness,
+            friction: values.real("contact.friction"),
+        };
+        let laws = ContactLaws { normal, skin };
+        let surface_density = values.real("disk.surface_density");
+        let masses: Vec<f64> =
+            disks.iter().map(|disk| surface_density * std::f64::consts::PI * disk.radius.powi(2)).collect();
+        let limits = TimeStepLimits::of(&laws, &masses, drive.frequency());
+        let time_step = chosen_time_step(values.real("time_step"), &limits)?;
+        let half_width = 0.5 * values.real("box.width");
+        let walls = vec![Wall::vibrating_floor(), Wall::left(-half_width), Wall::right(half_width)];
+
+        // The packing starts on the floor, wherever the drive has it.
+        let lift = drive.motion(start_time).displacement;
+        let disks: Vec<Disk> = disks.iter().map(|disk| Disk { y: disk.y + lift, ..*disk }).collect();
+        let gravity = values.real("gravity");
+        let setup = Setup { laws, walls, masses, gravity, time_step, start_time };
+        let engine = MolecularDynamics::new(setup, &disks, drive);
+        let energies = engine.energies();
+        let state =
+            PackingState { engine: engine.state().clone(), time: start_time, impulse: 0.0, reaction_force: 0.0 };
+        Ok(Self { engine, limits, start_energy: energies.kinetic + energies.potential + energies.elastic, state })
+    }
+
+    /// The engine, to look at everything that is no output.
+    pub fn engine(&self) -> &MolecularDynamics<I, D> {
+        &self.engine
+    }
+}
+
+/// The time step that a value of `time_step` asks for: 0 asks for the default.
+fn chosen_time_step(asked: f64, limits: &TimeStepLimits) -> Result<f64> {
+    if asked == 0.0 {
+        return Ok(limits.default);
+    }
+    if asked <= limits.largest {
+        return Ok(asked);
+    }
+    Err(Error::parameter(
+        "time_step",
+        format!("{asked:e} s"),
+        format!("at most {:e} s for these contacts, masses and drive", limits.largest),
+        format!("Give a smaller step, or 0 for the default of {:e} s.", limits.default),
+    ))
+}
+
+fn refusal(breakdown: Breakdown) -> Error {
+    let smaller = "Check the base's amplitude and the inputs, or take a smaller time_step";
+    let (time, what, remedy) = match breakdown {
+        Breakdown::TooDeep { time, overlap, allowed } => (
+            time,
+            format!("an overlap of {overlap:e} m, more than the {allowed:e} m (half of the smallest radius) allowed"),
+            format!("{smaller} or a larger contact.normal_stiffness."),
+        ),
+        Breakdown::TooFast { time, distance, allowed } => (
+            time,
+            format!("a disk moved {distance:e} m in one time step, more than the {allowed:e} m allowed"),
+            format!("{smaller}."),
+        ),
+        Breakdown::NotFinite { time } => (time, "a position is no longer finite".into(), format!("{smaller}.")),
+        Breakdown::TooManySteps { time, steps } => (
+            time,
+            format!("{steps:e} time steps in one call"),
+            "Take shorter communication steps or a larger time_step.".into(),
+        ),
+    };
+    Error::Step { scene: NAME, time, what, remedy }
+}
+
+impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
+    type State = PackingState<D>;
+
+    fn card() -> Card {
+        Card {
+            scene: NAME,
+            identifier: if D::NAME == "input" { "jostle_packing" } else { "jostle_packing_sine" },
+            engine: "molecular-dynamics",
+            drive: D::NAME,
+            description: "Packing of frictional disks in a box on a vibrating bottom, by molecular dynamics",
+            equations: equations::HTML,
+            disks: 1..=100_000,
+            default_disks: 60,
+            stop_time: 10.0,
+            step_size: 1e-3,
+        }
+    }
+
+    fn variables(choice: Choice) -> Vec<Variable> {
+        rows::rows(choice, D::variables())
+    }
+
+    fn new(choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
+        let radii: Vec<f64> = rows::RADII.iter().map(|name| values.real(name)).collect();
+        let width = values.real("box.width");
+        for (name, radius) in rows::RADII.iter().zip(&radii) {
+            if 2.0 * radius > width {
+                return Err(Error::parameter(
+                    *name,
+                    format!("{radius} m"),
+                    format!("at most half of box.width, {} m", 0.5 * width),
+                    "Take smaller disks or a wider box.",
+                ));
+            }
+        }
+        let distribution = RadiusDistribution::equal_shares(&radii)?;
+        let radii = distribution.sample(choice.disks as usize, values.integer("seed") as u64)?;
+        let disks = advancing_front(&radii, width)?;
+        Self::of_disks(&disks, start_time, values)
+    }
+
+    fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
+        let duration = end_time - self.state.time;
+        let drive = self.engine.state().drive.clone();
+        self.engine.drive_mut().aim(self.state.time, duration, values);
+        if let Err(breakdown) = self.engine.advance_to(end_time) {
+            *self.engine.drive_mut() = drive;
+            return Err(refusal(breakdown));
+        }
+        let impulse = self.engine.impulse_of_wall(FLOOR)[1];
+        self.state.reaction_force = -(impulse - self.state.impulse) / duration;
+        self.state.impulse = impulse;
+        self.state.time = end_time;
+        self.state.engine.clone_from(self.engine.state());
+        Ok(())
+    }
+
+    fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
+        let (engine, now) = (&self.engine, self.engine.now());
+        let count = engine.radii().len();
+        let (places, rates) = (&now.places()[..count], &now.rates()[..count]);
+        let mean = |axis: usize| rates.iter().map(|rate| rate[axis]).sum::<f64>() / count as f64;
+        let energies = engine.energies();
+        let total = energies.kinetic + energies.potential + energies.elastic;
+        outputs.real("chosen_time_step", engine.setup().time_step);
+        outputs.real("largest_time_step", self.limits.largest);
+        outputs.reals("disk.radius", engine.radii().iter().copied());
+        outputs.real("mean_velocity", mean(0));
+        outputs.real("mean_angular_velocity", mean(2));
+        outputs.real("base.reaction_force", self.state.reaction_force);
+        outputs.real("base.position", now.base.displacement);
+        outputs.real("base.acceleration", now.base.acceleration);
+        outputs.real("energy.kinetic", energies.kinetic);
+        outputs.real("energy.potential", energies.potential);
+        outputs.real("energy.elastic", energies.elastic);
+        outputs.real("energy.input", now.energy_input);
+        outputs.real("energy.lost", now.energy_lost);
+        outputs.real("energy.residual", total - self.start_energy - now.energy_input + now.energy_lost);
+        outputs.integer("contacts", i64::from(now.contacts));
+        outputs.reals("disk.angle", places.iter().map(|place| place[2]));
+        outputs.reals("disk.angular_velocity", rates.iter().map(|rate| rate[2]));
+        outputs.reals("disk.x", places.iter().map(|place| place[0]));
+        outputs.reals("disk.y", places.iter().map(|place| place[1]));
+        outputs.finish();
+    }
+
+    fn state(&self) -> &Self::State {
+        &self.state
+    }
+
+    fn restore(&mut self, state: &Self::State) -> Result<()> {
+        if let Some(what) = mismatch(&state.engine, &self.state.engine) {
+            return Err(Error::state(what, "Restore states of the same scene, disk count and parameters only."));
+        }
+        self.engine.restore(&state.engine, state.time).map_err(refusal)?;
+        self.state.clone_from(state);
+        Ok(())
+    }
+}
+
+/// Why `given` cannot be a state of the run that `own` belongs to.
+fn mismatch<D>(given: &State<D>, own: &State<D>) -> Option<String> {
+    let lengths = |state: &State<D>| {
+        [state.position.len(), state.velocity.len(), state.acceleration.len(), state.higher.len(), state.searched.len()]
+    };
+    let disks = own.searched.len() as u32;
+    let pairs_hold = given.pairs.iter().all(|pair| pair.first < disks && pair.second < disks);
+    let walls_hold = given.at_walls.iter().all(|near| near.disk < disks && near.wall < 3);
+    if lengths(given) != lengths(own) {
+        Some(format!("it has arrays of {:?} numbers, not {:?}", lengths(given), lengths(own)))
+    } else if !(pairs_hold && walls_hold) {
+        Some(format!("it names a disk beyond the {disks} there are"))
+    } else if !given.position.iter().chain(&given.velocity).all(|number| number.is_finite()) {
+        Some("it holds positions or velocities that are not finite".into())
+    } else {
+        None
+    }
+}

@@ -8,6 +8,7 @@ pub mod drive;
 pub mod engine;
 pub mod error;
 pub mod geometry;
+pub mod packing;
 pub mod scene;
 
 pub use error::{Error, Result};

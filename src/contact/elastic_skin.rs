@@ -17,7 +17,11 @@ impl ElasticSkin {
     #[inline]
     pub fn limited(&self, stretch: f64, normal_force: f64) -> f64 {
         let limit = self.friction * normal_force;
-        if self.stiffness * stretch.abs() > limit { (limit / self.stiffness).copysign(stretch) } else { stretch }
+        if self.stiffness * stretch.abs() > limit {
+            (limit / self.stiffness).copysign(stretch)
+        } else {
+            stretch
+        }
     }
 
     /// Tangential force \[N\] on the first body along the tangent, `-k_t s`.
@@ -39,7 +43,10 @@ mod tests {
 
     #[test]
     fn slips_at_the_limit_and_sticks_below() {
-        let skin = ElasticSkin { stiffness: 100.0, friction: 0.5 };
+        let skin = ElasticSkin {
+            stiffness: 100.0,
+            friction: 0.5,
+        };
         assert_eq!(skin.limited(0.04, 10.0), 0.04);
         assert_eq!(skin.limited(0.2, 10.0), 0.05);
         assert_eq!(skin.limited(-0.2, 10.0), -0.05);

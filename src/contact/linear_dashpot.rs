@@ -64,7 +64,10 @@ mod tests {
 
     #[test]
     fn pushes_and_never_pulls() {
-        let law = LinearDashpot { stiffness: 1e4, damping: 0.1 };
+        let law = LinearDashpot {
+            stiffness: 1e4,
+            damping: 0.1,
+        };
         assert_eq!(law.force(1e-3, 0.0), 10.0);
         assert_eq!(law.force(1e-6, 1.0), 0.0);
     }
@@ -73,7 +76,10 @@ mod tests {
     #[test]
     fn agrees_with_the_printed_branches() {
         for c in [0.01_f64, 0.3, 0.7, 0.72, 0.9, 0.99, 1.01, 1.5, 4.0] {
-            let law = LinearDashpot { stiffness: 1.0, damping: 2.0 * c };
+            let law = LinearDashpot {
+                stiffness: 1.0,
+                damping: 2.0 * c,
+            };
             let printed = if c < std::f64::consts::FRAC_1_SQRT_2 {
                 let s = (1.0 - c * c).sqrt();
                 (-c / s * (std::f64::consts::PI - (2.0 * c * s / (1.0 - 2.0 * c * c)).atan())).exp()
@@ -90,7 +96,13 @@ mod tests {
 
     #[test]
     fn is_smooth_through_critical_damping() {
-        let at = |c: f64| LinearDashpot { stiffness: 1.0, damping: 2.0 * c }.restitution(1.0);
+        let at = |c: f64| {
+            LinearDashpot {
+                stiffness: 1.0,
+                damping: 2.0 * c,
+            }
+            .restitution(1.0)
+        };
         assert!((at(1.0) - (-2.0_f64).exp()).abs() < 1e-15);
         // The series meets the closed form where they hand over.
         for edge in [1.0 - 1e-5, 1.0 + 1e-5] {

@@ -19,22 +19,38 @@ pub struct Wall {
 impl Wall {
     /// Horizontal floor at height zero that moves with the base.
     pub const fn vibrating_floor() -> Self {
-        Self { normal: [0.0, 1.0], offset: 0.0, follows_base: 1.0 }
+        Self {
+            normal: [0.0, 1.0],
+            offset: 0.0,
+            follows_base: 1.0,
+        }
     }
 
     /// Vertical wall at rest, on the left of the free space, at `x` \[m\].
     pub const fn left(x: f64) -> Self {
-        Self { normal: [1.0, 0.0], offset: x, follows_base: 0.0 }
+        Self {
+            normal: [1.0, 0.0],
+            offset: x,
+            follows_base: 0.0,
+        }
     }
 
     /// Vertical wall at rest, on the right of the free space, at `x` \[m\].
     pub const fn right(x: f64) -> Self {
-        Self { normal: [-1.0, 0.0], offset: -x, follows_base: 0.0 }
+        Self {
+            normal: [-1.0, 0.0],
+            offset: -x,
+            follows_base: 0.0,
+        }
     }
 
     /// Wall through the origin at `angle` \[rad\] to the horizontal that moves with the base; one side of a wedge.
     pub fn vibrating_slope(angle: f64) -> Self {
-        Self { normal: [-angle.sin(), angle.cos()], offset: 0.0, follows_base: 1.0 }
+        Self {
+            normal: [-angle.sin(), angle.cos()],
+            offset: 0.0,
+            follows_base: 1.0,
+        }
     }
 
     /// Unit tangent: along it the surface velocity of a disk is `t . v + R omega`.

@@ -49,11 +49,21 @@ impl BaseDrive for FollowsInput {
     }
 
     fn new(start_time: f64, values: &Values) -> Result<Self> {
-        Ok(Self::uniform(start_time, values.real("base.displacement"), values.real("base.velocity")))
+        Ok(Self::uniform(
+            start_time,
+            values.real("base.displacement"),
+            values.real("base.velocity"),
+        ))
     }
 
     fn aim(&mut self, time: f64, duration: f64, values: &Values) {
-        Self::aim(self, time, duration, values.real("base.displacement"), values.real("base.velocity"));
+        Self::aim(
+            self,
+            time,
+            duration,
+            values.real("base.displacement"),
+            values.real("base.velocity"),
+        );
     }
 
     fn frequency(&self) -> Option<f64> {
@@ -73,8 +83,20 @@ impl BaseDrive for Sine {
                 7.757e-5,
                 "Amplitude A of the base, y = A sin(2 pi f t + phase); the default is Gamma = 2 at 80 Hz",
             ),
-            Variable::parameter("drive.frequency", Unit::Hertz, 0.0..=1e6, 80.0, "Frequency f of the base"),
-            Variable::parameter("drive.phase", Unit::Radian, -TAU..=TAU, 0.0, "Phase of the base at time zero"),
+            Variable::parameter(
+                "drive.frequency",
+                Unit::Hertz,
+                0.0..=1e6,
+                80.0,
+                "Frequency f of the base",
+            ),
+            Variable::parameter(
+                "drive.phase",
+                Unit::Radian,
+                -TAU..=TAU,
+                0.0,
+                "Phase of the base at time zero",
+            ),
         ]
     }
 

@@ -2,6 +2,8 @@
 //!
 //! A [`Scene`] is all that the FMI boundary, the command line and a Rust program need to know. It never names FMI.
 
+pub mod base_drive;
+pub mod packing;
 pub mod variables;
 
 use serde::Serialize;
@@ -72,8 +74,8 @@ pub trait Scene: Sized + Send + 'static {
     /// Writes every calculated parameter and output, in the order of the rows.
     fn write_outputs(&self, outputs: OutputWriter<'_>);
 
-    /// The present state.
-    fn state(&self) -> &Self::State;
+    /// A copy of the present state.
+    fn state(&self) -> Self::State;
 
     /// Goes back (or on) to a state of this same scene with these same parameters.
     ///

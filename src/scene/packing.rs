@@ -12,7 +12,7 @@ use crate::engine::molecular_dynamics::{
 };
 use crate::error::{Error, Result};
 use crate::geometry::{Disk, Wall};
-use crate::packing::{RadiusDistribution, advancing_front};
+use crate::packing::{RadiusClass, RadiusDistribution, advancing_front};
 
 use super::base_drive::BaseDrive;
 use super::variables::{OutputWriter, Values, Variable};
@@ -34,33 +34,29 @@ const FLOOR: usize = 0;
 pub struct Packing<D, I> {
     engine: MolecularDynamics<I, D>,
     limits: TimeStepLimits,
-    /// Total energy at the start \[J\], for the residual.
-    start_energy: f64,
-    state: PackingState<D>,
+    report: Report,
 }
 
-/// State of a [`Packing`]: the engine's, and the report of the last communication step.
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
-pub struct PackingState<D> {
-    /// Disks, contacts and base on the time grid.
-    pub engine: State<D>,
+/// What the last communication step reported.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Report {
     /// Time reached \[s\].
     pub time: f64,
     /// Vertical impulse of the base on the disks up to `time` \[N.s\].
     pub impulse: f64,
     /// Vertical force of the disks on the base \[N\], mean over the last communication step.
     pub reaction_force: f64,
+    /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
+    pub start_energy: f64,
 }
 
-impl<D: Clone> Clone for PackingState<D> {
-    fn clone(&self) -> Self {
-        Self { engine: self.engine.clone(), ..*self }
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        self.engine.clone_from(&source.engine);
-        (self.time, self.impulse, self.reaction_force) = (source.time, source.impulse, source.reaction_force);
-    }
+/// State of a [`Packing`]: the engine's, and the report of the last communication step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PackingState<D> {
+    /// Disks, contacts and base on the time grid.
+    pub engine: State<D>,
+    /// The last communication step.
+    pub report: Report,
 }
 
 impl<D: BaseDrive, I: Integrator> Packing<D, I> {
@@ -70,31 +66,57 @@ impl<D: BaseDrive, I: Integrator> Packing<D, I> {
     /// A time step that the contacts do not allow, by name.
     pub fn of_disks(disks: &[Disk], start_time: f64, values: &Values) -> Result<Self> {
         let drive = D::new(start_time, values)?;
-        let normal =
-            LinearDashpot { stiffness: values.real("contact.normal_stiffness"), damping: values.real("contact.normal_damping") };
+        let normal = LinearDashpot {
+            stiffness: values.real("contact.normal_stiffness"),
+            damping: values.real("contact.normal_damping"),
+        };
         let skin = ElasticSkin {
             stiffness: values.real("contact.stiffness_ratio") * normal.stiffness,
             friction: values.real("contact.friction"),
         };
         let laws = ContactLaws { normal, skin };
         let surface_density = values.real("disk.surface_density");
-        let masses: Vec<f64> =
-            disks.iter().map(|disk| surface_density * std::f64::consts::PI * disk.radius.powi(2)).collect();
+        let masses: Vec<f64> = disks
+            .iter()
+            .map(|disk| surface_density * std::f64::consts::PI * disk.radius.powi(2))
+            .collect();
         let limits = TimeStepLimits::of(&laws, &masses, drive.frequency());
         let time_step = chosen_time_step(values.real("time_step"), &limits)?;
         let half_width = 0.5 * values.real("box.width");
-        let walls = vec![Wall::vibrating_floor(), Wall::left(-half_width), Wall::right(half_width)];
+        let walls = vec![
+            Wall::vibrating_floor(),
+            Wall::left(-half_width),
+            Wall::right(half_width),
+        ];
 
         // The packing starts on the floor, wherever the drive has it.
         let lift = drive.motion(start_time).displacement;
-        let disks: Vec<Disk> = disks.iter().map(|disk| Disk { y: disk.y + lift, ..*disk }).collect();
+        let disks: Vec<Disk> = disks
+            .iter()
+            .map(|disk| Disk {
+                y: disk.y + lift,
+                ..*disk
+            })
+            .collect();
         let gravity = values.real("gravity");
-        let setup = Setup { laws, walls, masses, gravity, time_step, start_time };
+        let setup = Setup {
+            laws,
+            walls,
+            masses,
+            gravity,
+            time_step,
+            start_time,
+        };
         let engine = MolecularDynamics::new(setup, &disks, drive);
         let energies = engine.energies();
-        let state =
-            PackingState { engine: engine.state().clone(), time: start_time, impulse: 0.0, reaction_force: 0.0 };
-        Ok(Self { engine, limits, start_energy: energies.kinetic + energies.potential + energies.elastic, state })
+        let start_energy = energies.kinetic + energies.potential + energies.elastic;
+        let report = Report {
+            time: start_time,
+            impulse: 0.0,
+            reaction_force: 0.0,
+            start_energy,
+        };
+        Ok(Self { engine, limits, report })
     }
 
     /// The engine, to look at everything that is no output.
@@ -127,7 +149,11 @@ fn refusal(breakdown: Breakdown) -> Error {
             format!("an overlap of {overlap:e} m, more than the {allowed:e} m (half of the smallest radius) allowed"),
             format!("{smaller} or a larger contact.normal_stiffness."),
         ),
-        Breakdown::TooFast { time, distance, allowed } => (
+        Breakdown::TooFast {
+            time,
+            distance,
+            allowed,
+        } => (
             time,
             format!("a disk moved {distance:e} m in one time step, more than the {allowed:e} m allowed"),
             format!("{smaller}."),
@@ -139,7 +165,12 @@ fn refusal(breakdown: Breakdown) -> Error {
             "Take shorter communication steps or a larger time_step.".into(),
         ),
     };
-    Error::Step { scene: NAME, time, what, remedy }
+    Error::Step {
+        scene: NAME,
+        time,
+        what,
+        remedy,
+    }
 }
 
 impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
@@ -148,7 +179,11 @@ impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
     fn card() -> Card {
         Card {
             scene: NAME,
-            identifier: if D::NAME == "input" { "jostle_packing" } else { "jostle_packing_sine" },
+            identifier: if D::NAME == "input" {
+                "jostle_packing"
+            } else {
+                "jostle_packing_sine"
+            },
             engine: "molecular-dynamics",
             drive: D::NAME,
             description: "Packing of frictional disks in a box on a vibrating bottom, by molecular dynamics",
@@ -177,25 +212,30 @@ impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
                 ));
             }
         }
-        let distribution = RadiusDistribution::equal_shares(&radii)?;
+        let classes = radii.iter().map(|&radius| RadiusClass { radius, parts: 1 });
+        let distribution = RadiusDistribution::Classes(classes.collect());
         let radii = distribution.sample(choice.disks as usize, values.integer("seed") as u64)?;
         let disks = advancing_front(&radii, width)?;
         Self::of_disks(&disks, start_time, values)
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        let duration = end_time - self.state.time;
+        let from = self.report;
+        let duration = end_time - from.time;
         let drive = self.engine.state().drive.clone();
-        self.engine.drive_mut().aim(self.state.time, duration, values);
+        self.engine.drive_mut().aim(from.time, duration, values);
         if let Err(breakdown) = self.engine.advance_to(end_time) {
             *self.engine.drive_mut() = drive;
             return Err(refusal(breakdown));
         }
         let impulse = self.engine.impulse_of_wall(FLOOR)[1];
-        self.state.reaction_force = -(impulse - self.state.impulse) / duration;
-        self.state.impulse = impulse;
-        self.state.time = end_time;
-        self.state.engine.clone_from(self.engine.state());
+        let reaction_force = (from.impulse - impulse) / duration;
+        self.report = Report {
+            time: end_time,
+            impulse,
+            reaction_force,
+            ..from
+        };
         Ok(())
     }
 
@@ -211,7 +251,7 @@ impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
         outputs.reals("disk.radius", engine.radii().iter().copied());
         outputs.real("mean_velocity", mean(0));
         outputs.real("mean_angular_velocity", mean(2));
-        outputs.real("base.reaction_force", self.state.reaction_force);
+        outputs.real("base.reaction_force", self.report.reaction_force);
         outputs.real("base.position", now.base.displacement);
         outputs.real("base.acceleration", now.base.acceleration);
         outputs.real("energy.kinetic", energies.kinetic);
@@ -219,7 +259,10 @@ impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
         outputs.real("energy.elastic", energies.elastic);
         outputs.real("energy.input", now.energy_input);
         outputs.real("energy.lost", now.energy_lost);
-        outputs.real("energy.residual", total - self.start_energy - now.energy_input + now.energy_lost);
+        outputs.real(
+            "energy.residual",
+            total - self.report.start_energy - now.energy_input + now.energy_lost,
+        );
         outputs.integer("contacts", i64::from(now.contacts));
         outputs.reals("disk.angle", places.iter().map(|place| place[2]));
         outputs.reals("disk.angular_velocity", rates.iter().map(|rate| rate[2]));
@@ -228,16 +271,22 @@ impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
         outputs.finish();
     }
 
-    fn state(&self) -> &Self::State {
-        &self.state
+    fn state(&self) -> Self::State {
+        PackingState {
+            engine: self.engine.state().clone(),
+            report: self.report,
+        }
     }
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
-        if let Some(what) = mismatch(&state.engine, &self.state.engine) {
-            return Err(Error::state(what, "Restore states of the same scene, disk count and parameters only."));
+        if let Some(what) = mismatch(&state.engine, self.engine.state()) {
+            return Err(Error::state(
+                what,
+                "Restore states of the same scene, disk count and parameters only.",
+            ));
         }
-        self.engine.restore(&state.engine, state.time).map_err(refusal)?;
-        self.state.clone_from(state);
+        self.engine.restore(&state.engine, state.report.time).map_err(refusal)?;
+        self.report = state.report;
         Ok(())
     }
 }
@@ -245,16 +294,31 @@ impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
 /// Why `given` cannot be a state of the run that `own` belongs to.
 fn mismatch<D>(given: &State<D>, own: &State<D>) -> Option<String> {
     let lengths = |state: &State<D>| {
-        [state.position.len(), state.velocity.len(), state.acceleration.len(), state.higher.len(), state.searched.len()]
+        [
+            state.position.len(),
+            state.velocity.len(),
+            state.acceleration.len(),
+            state.higher.len(),
+            state.searched.len(),
+        ]
     };
     let disks = own.searched.len() as u32;
     let pairs_hold = given.pairs.iter().all(|pair| pair.first < disks && pair.second < disks);
     let walls_hold = given.at_walls.iter().all(|near| near.disk < disks && near.wall < 3);
     if lengths(given) != lengths(own) {
-        Some(format!("it has arrays of {:?} numbers, not {:?}", lengths(given), lengths(own)))
+        Some(format!(
+            "it has arrays of {:?} numbers, not {:?}",
+            lengths(given),
+            lengths(own)
+        ))
     } else if !(pairs_hold && walls_hold) {
         Some(format!("it names a disk beyond the {disks} there are"))
-    } else if !given.position.iter().chain(&given.velocity).all(|number| number.is_finite()) {
+    } else if !given
+        .position
+        .iter()
+        .chain(&given.velocity)
+        .all(|number| number.is_finite())
+    {
         Some("it holds positions or velocities that are not finite".into())
     } else {
         None

@@ -276,10 +276,15 @@ pub enum Value {
 }
 
 /// The rows of a scene with an index by name. Made once per instance, shared and never changed.
-#[derive(Debug)]
 pub struct Table {
     rows: Vec<Variable>,
     by_name: HashMap<String, usize>,
+}
+
+impl std::fmt::Debug for Table {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "Table of {} variables", self.rows.len())
+    }
 }
 
 impl Table {

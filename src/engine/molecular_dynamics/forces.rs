@@ -68,9 +68,14 @@ impl ContactLaws {
         tally.slip_heat += 0.5 * self.skin.stiffness * (stretch + skin.stretch) * slip;
         skin.reference += slip;
         skin.stretch = stretch;
-        tally.dissipated_power +=
-            self.normal.dissipated_power(contact.overlap, contact.normal_velocity, normal_force);
-        tally.deepest = if contact.overlap > tally.deepest { contact.overlap } else { tally.deepest };
+        tally.dissipated_power += self
+            .normal
+            .dissipated_power(contact.overlap, contact.normal_velocity, normal_force);
+        tally.deepest = if contact.overlap > tally.deepest {
+            contact.overlap
+        } else {
+            tally.deepest
+        };
         tally.contacts += 1;
         (normal_force, self.skin.force(stretch))
     }
@@ -160,7 +165,10 @@ impl ContactLaws {
             }
             let ([nx, ny], [tx, ty]) = (wall.normal, wall.tangent());
             let [vx, vy, angular_velocity] = rates[disk];
-            let (lift, vy) = (wall.follows_base * base.displacement, vy - wall.follows_base * base.velocity);
+            let (lift, vy) = (
+                wall.follows_base * base.displacement,
+                vy - wall.follows_base * base.velocity,
+            );
             let contact = Closed {
                 overlap,
                 normal_velocity: nx * vx + ny * vy,

@@ -72,7 +72,14 @@ impl Integrator for VelocityVerlet {
 pub struct Gear5;
 
 /// Corrector coefficients times k!, for the k-th derivative as it stands (not scaled by the step).
-const GEAR: [f64; 6] = [3.0 / 16.0, 251.0 / 360.0, 2.0, 6.0 * 11.0 / 18.0, 24.0 / 6.0, 120.0 / 60.0];
+const GEAR: [f64; 6] = [
+    3.0 / 16.0,
+    251.0 / 360.0,
+    2.0,
+    6.0 * 11.0 / 18.0,
+    24.0 / 6.0,
+    120.0 / 60.0,
+];
 
 impl Gear5 {
     /// The three arrays beyond the acceleration.
@@ -88,7 +95,12 @@ impl Integrator for Gear5 {
     const NAME: &'static str = "Gear 5";
 
     fn predict(coordinates: Coordinates<'_>, step: f64) {
-        let Coordinates { position, velocity, acceleration, higher } = coordinates;
+        let Coordinates {
+            position,
+            velocity,
+            acceleration,
+            higher,
+        } = coordinates;
         let (third, fourth, fifth) = Self::split(higher, position.len());
         let h = step;
         for i in 0..position.len() {
@@ -102,7 +114,12 @@ impl Integrator for Gear5 {
     }
 
     fn correct(coordinates: Coordinates<'_>, force: &[f64], inverse_mass: &[f64], step: f64) {
-        let Coordinates { position, velocity, acceleration, higher } = coordinates;
+        let Coordinates {
+            position,
+            velocity,
+            acceleration,
+            higher,
+        } = coordinates;
         let (third, fourth, fifth) = Self::split(higher, position.len());
         let h = step;
         for i in 0..position.len() {
@@ -128,16 +145,20 @@ mod tests {
         let (mut position, mut velocity, mut acceleration) = ([1.0], [0.0], [-1.0]);
         let mut higher = vec![0.0, 1.0, 0.0];
         higher.truncate(I::HIGHER_DERIVATIVES);
+        macro_rules! coordinates {
+            () => {
+                Coordinates {
+                    position: &mut position,
+                    velocity: &mut velocity,
+                    acceleration: &mut acceleration,
+                    higher: &mut higher,
+                }
+            };
+        }
         for _ in 0..steps {
-            let coordinates = |p, v, a, h| Coordinates { position: p, velocity: v, acceleration: a, higher: h };
-            I::predict(coordinates(&mut position, &mut velocity, &mut acceleration, &mut higher), step);
+            I::predict(coordinates!(), step);
             let force = [-position[0]];
-            I::correct(
-                coordinates(&mut position, &mut velocity, &mut acceleration, &mut higher),
-                &force,
-                &[1.0],
-                step,
-            );
+            I::correct(coordinates!(), &force, &[1.0], step);
         }
         (position[0] - 1.0).hypot(velocity[0])
     }

@@ -83,7 +83,7 @@ pub enum Breakdown {
 pub struct Energies {
     /// Translation and rotation.
     pub kinetic: f64,
-    /// In gravity, zero where the disks started.
+    /// In gravity, zero at height zero.
     pub potential: f64,
     /// In springs and skins of closed contacts.
     pub elastic: f64,
@@ -106,7 +106,6 @@ pub struct MolecularDynamics<I, D> {
     weight: Vec<f64>,
     smallest_radius: f64,
     margin: f64,
-    start_height: f64,
     state: State<D>,
     /// The state at the last time that was asked for, if that is no grid point.
     between: Option<State<D>>,
@@ -120,13 +119,11 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     /// Disks at rest where they are, at `setup.start_time`, under the drive.
     pub fn new(setup: Setup, disks: &[Disk], drive: D) -> Self {
         let (mut position, mut inverse_mass, mut weight) = (Vec::new(), Vec::new(), Vec::new());
-        let mut start_height = 0.0;
         for (disk, mass) in disks.iter().zip(&setup.masses) {
             position.extend([disk.x, disk.y, 0.0]);
             let inertia = 0.5 * mass * disk.radius * disk.radius;
             inverse_mass.extend([1.0 / mass, 1.0 / mass, 1.0 / inertia]);
             weight.extend([0.0, -mass * setup.gravity, 0.0]);
-            start_height += mass * disk.y;
         }
         let length = position.len() + 2 * setup.walls.len();
         position.resize(length, 0.0);
@@ -161,7 +158,6 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
             force: vec![0.0; length],
             weight,
             smallest_radius,
-            start_height,
             backup: state.clone(),
             between: None,
             state,
@@ -177,8 +173,11 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         change(&mut self.state);
         self.search();
         let tally = self.evaluate(0.0);
-        for (acceleration, (force, inverse)) in
-            self.state.acceleration.iter_mut().zip(self.force.iter().zip(&self.inverse_mass))
+        for (acceleration, (force, inverse)) in self
+            .state
+            .acceleration
+            .iter_mut()
+            .zip(self.force.iter().zip(&self.inverse_mass))
         {
             *acceleration = force * inverse;
         }
@@ -194,11 +193,16 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         let target = (elapsed + SNAP).floor().max(0.0);
         let asked = target - self.state.steps as f64;
         if asked > MOST_STEPS {
-            return Err(Breakdown::TooManySteps { time: self.time(), steps: asked });
+            return Err(Breakdown::TooManySteps {
+                time: self.time(),
+                steps: asked,
+            });
         }
         self.backup.clone_from(&self.state);
-        let outcome =
-            self.run_to(target as u64).and_then(|()| self.look(end_time)).and_then(|()| self.check_finite(end_time));
+        let outcome = self
+            .run_to(target as u64)
+            .and_then(|()| self.look(end_time))
+            .and_then(|()| self.check_finite(end_time));
         if outcome.is_err() {
             std::mem::swap(&mut self.state, &mut self.backup);
         }
@@ -215,10 +219,14 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         &self.state
     }
 
-    /// Continues from `state`, seen at `time` \[s\].
+    /// Continues from `state`, seen at `time` \[s\]. On a breakdown the engine is as before the call.
     pub fn restore(&mut self, state: &State<D>, time: f64) -> Result<(), Breakdown> {
-        self.state.clone_from(state);
-        self.look(time)
+        let mut former = std::mem::replace(&mut self.state, state.clone());
+        let outcome = self.look(time);
+        if outcome.is_err() {
+            std::mem::swap(&mut self.state, &mut former);
+        }
+        outcome
     }
 
     /// The drive, to be aimed at new inputs.
@@ -251,15 +259,21 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     /// Total momentum (x, y) \[kg.m/s\] at the time last asked for.
     pub fn momentum(&self) -> [f64; 2] {
         let rates = self.now().rates().iter().zip(&self.setup.masses);
-        rates.fold([0.0; 2], |[x, y], (rate, mass)| [x + mass * rate[0], y + mass * rate[1]])
+        rates.fold([0.0; 2], |[x, y], (rate, mass)| {
+            [x + mass * rate[0], y + mass * rate[1]]
+        })
     }
 
     /// Energies at the time last asked for.
     pub fn energies(&self) -> Energies {
         let state = self.now();
         let (mut kinetic, mut height) = (0.0, 0.0);
-        for (((place, rate), mass), radius) in
-            state.places().iter().zip(state.rates()).zip(&self.setup.masses).zip(&self.radii)
+        for (((place, rate), mass), radius) in state
+            .places()
+            .iter()
+            .zip(state.rates())
+            .zip(&self.setup.masses)
+            .zip(&self.radii)
         {
             let [vx, vy, angular_velocity] = *rate;
             kinetic += 0.5 * mass * (vx * vx + vy * vy + 0.5 * (radius * angular_velocity).powi(2));
@@ -279,7 +293,11 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
             let overlap = self.radii[near.disk as usize] - distance;
             elastic += laws.normal.energy(overlap) + laws.skin.energy(near.skin.stretch);
         }
-        Energies { kinetic, potential: self.setup.gravity * (height - self.start_height), elastic }
+        Energies {
+            kinetic,
+            potential: self.setup.gravity * height,
+            elastic,
+        }
     }
 
     fn time_of(&self, steps: u64) -> f64 {
@@ -321,13 +339,16 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         let tally = self.evaluate(step);
         if tally.deepest > 0.5 * self.smallest_radius {
             let allowed = 0.5 * self.smallest_radius;
-            return Err(Breakdown::TooDeep { time, overlap: tally.deepest, allowed });
+            return Err(Breakdown::TooDeep {
+                time,
+                overlap: tally.deepest,
+                allowed,
+            });
         }
         I::correct(coordinates(&mut self.state), &self.force, &self.inverse_mass, step);
 
         let state = &mut self.state;
-        state.energy_input +=
-            0.5 * (base_force_before + state.base_force) * (state.base.displacement - base_before);
+        state.energy_input += 0.5 * (base_force_before + state.base_force) * (state.base.displacement - base_before);
         state.energy_lost += 0.5 * step * (state.dissipated_power + tally.dissipated_power) + tally.slip_heat;
         state.dissipated_power = tally.dissipated_power;
         state.contacts = tally.contacts;
@@ -341,12 +362,24 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         self.force.copy_from_slice(&self.weight);
         let (on_disks, from_walls) = self.force.split_at_mut(3 * count);
         let (on_disks, _) = on_disks.as_chunks_mut();
-        let disks = (state.position.as_chunks().0, state.velocity.as_chunks().0, self.radii.as_slice());
+        let disks = (
+            state.position.as_chunks().0,
+            state.velocity.as_chunks().0,
+            self.radii.as_slice(),
+        );
         let mut tally = Tally::default();
         let laws = self.setup.laws;
         laws.between_disks(&mut state.pairs, disks, on_disks, step, &mut tally);
         let walls = &self.setup.walls;
-        laws.at_walls(&mut state.at_walls, walls, state.base, disks, (on_disks, from_walls), step, &mut tally);
+        laws.at_walls(
+            &mut state.at_walls,
+            walls,
+            state.base,
+            disks,
+            (on_disks, from_walls),
+            step,
+            &mut tally,
+        );
         let vertical = from_walls.chunks_exact(2).zip(walls);
         state.base_force = vertical.map(|(force, wall)| wall.follows_base * force[1]).sum();
         tally
@@ -375,7 +408,11 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     fn check_pace(&self, farthest: f64, time: f64) -> Result<(), Breakdown> {
         let allowed = 0.5 * self.smallest_radius;
         if self.state.steps <= self.state.searched_step + 1 && farthest > allowed {
-            return Err(Breakdown::TooFast { time, distance: farthest, allowed });
+            return Err(Breakdown::TooFast {
+                time,
+                distance: farthest,
+                allowed,
+            });
         }
         Ok(())
     }
@@ -383,7 +420,11 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     /// Comparisons with what is no number are false and trip no other check.
     fn check_finite(&self, time: f64) -> Result<(), Breakdown> {
         let finite = self.now().position.iter().all(|position| position.is_finite());
-        if finite { Ok(()) } else { Err(Breakdown::NotFinite { time }) }
+        if finite {
+            Ok(())
+        } else {
+            Err(Breakdown::NotFinite { time })
+        }
     }
 
     fn search(&mut self) {
@@ -393,9 +434,14 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         state.searched.extend_from_slice(&state.position.as_chunks().0[..count]);
         state.searched_base = state.base.displacement;
         state.searched_step = state.steps;
-        let cloud = Cloud { places: &state.searched, radii: &self.radii, margin: self.margin };
+        let cloud = Cloud {
+            places: &state.searched,
+            radii: &self.radii,
+            margin: self.margin,
+        };
         self.grid.find_pairs(cloud, &mut state.pairs);
-        self.grid.find_at_walls(cloud, &self.setup.walls, state.searched_base, &mut state.at_walls);
+        self.grid
+            .find_at_walls(cloud, &self.setup.walls, state.searched_base, &mut state.at_walls);
     }
 }
 

@@ -47,7 +47,12 @@ impl CellGrid {
                 let kept = old.next_if(|pair| (pair.first, pair.second) == key);
                 let skin = kept.map_or(SkinMemory::OPEN, |pair| pair.skin);
                 let reach = cloud.radii[first] + cloud.radii[second as usize];
-                self.found.push(Pair { first: key.0, second, reach, skin });
+                self.found.push(Pair {
+                    first: key.0,
+                    second,
+                    reach,
+                    skin,
+                });
             }
         }
         std::mem::swap(pairs, &mut self.found);
@@ -72,7 +77,11 @@ impl CellGrid {
                 while old.next_if(|near| (near.disk, near.wall) < key).is_some() {}
                 let kept = old.next_if(|near| (near.disk, near.wall) == key);
                 let skin = kept.map_or(SkinMemory::OPEN, |near| near.skin);
-                self.found_at_walls.push(AtWall { disk: key.0, wall: key.1, skin });
+                self.found_at_walls.push(AtWall {
+                    disk: key.0,
+                    wall: key.1,
+                    skin,
+                });
             }
         }
         std::mem::swap(at_walls, &mut self.found_at_walls);
@@ -92,7 +101,10 @@ impl CellGrid {
         self.columns = ((high[0] - low[0]) / side).clamp(1.0, most) as usize;
         self.rows = ((high[1] - low[1]) / side).clamp(1.0, (most / self.columns as f64).max(1.0)) as usize;
         let scale = |cells: usize, extent: f64| if extent > 0.0 { cells as f64 / extent } else { 0.0 };
-        let per_metre = [scale(self.columns, high[0] - low[0]), scale(self.rows, high[1] - low[1])];
+        let per_metre = [
+            scale(self.columns, high[0] - low[0]),
+            scale(self.rows, high[1] - low[1]),
+        ];
 
         self.cell_of.clear();
         self.starts.clear();
@@ -157,13 +169,21 @@ mod tests {
         let mut random = Pcg64::seed_from_u64(7);
         for extent in [0.01, 0.3, 3.0, 100.0] {
             let count = 150;
-            let mut places: Vec<[f64; 3]> =
-                (0..count).map(|_| [extent * uniform(&mut random), extent * uniform(&mut random), 0.0]).collect();
+            let mut places: Vec<[f64; 3]> = (0..count)
+                .map(|_| [extent * uniform(&mut random), extent * uniform(&mut random), 0.0])
+                .collect();
             places[17] = [0.0, 1e6, 0.0];
             let radii: Vec<f64> = (0..count).map(|_| 0.01 + 0.02 * uniform(&mut random)).collect();
             let margin = 0.003;
             let mut pairs = Vec::new();
-            CellGrid::default().find_pairs(Cloud { places: &places, radii: &radii, margin }, &mut pairs);
+            CellGrid::default().find_pairs(
+                Cloud {
+                    places: &places,
+                    radii: &radii,
+                    margin,
+                },
+                &mut pairs,
+            );
             let mut expected = Vec::new();
             for i in 0..count {
                 for j in i + 1..count {
@@ -181,12 +201,20 @@ mod tests {
     #[test]
     fn closed_contacts_keep_their_memory() {
         let places = [[0.0, 0.0, 0.0], [0.02, 0.0, 0.0], [0.04, 0.0, 0.0]];
-        let cloud = Cloud { places: &places, radii: &[0.01; 3], margin: 0.002 };
+        let cloud = Cloud {
+            places: &places,
+            radii: &[0.01; 3],
+            margin: 0.002,
+        };
         let mut grid = CellGrid::default();
         let mut pairs = Vec::new();
         grid.find_pairs(cloud, &mut pairs);
         assert_eq!(pairs.len(), 2);
-        let skin = SkinMemory { direction: [1.0, 0.0], reference: 0.5, stretch: 0.25 };
+        let skin = SkinMemory {
+            direction: [1.0, 0.0],
+            reference: 0.5,
+            stretch: 0.25,
+        };
         pairs[1].skin = skin;
         grid.find_pairs(cloud, &mut pairs);
         assert_eq!(pairs[0].skin, SkinMemory::OPEN);

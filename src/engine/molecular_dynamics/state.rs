@@ -71,8 +71,21 @@ impl<D: Clone> Clone for State<D> {
         self.pairs.clone_from(&source.pairs);
         self.at_walls.clone_from(&source.at_walls);
         self.searched.clone_from(&source.searched);
-        let Self { steps, base, searched_base, searched_step, .. } = *source;
-        let Self { base_force, dissipated_power, energy_input, energy_lost, contacts, .. } = *source;
+        let Self {
+            steps,
+            base,
+            searched_base,
+            searched_step,
+            ..
+        } = *source;
+        let Self {
+            base_force,
+            dissipated_power,
+            energy_input,
+            energy_lost,
+            contacts,
+            ..
+        } = *source;
         (self.steps, self.base, self.searched_base, self.searched_step) = (steps, base, searched_base, searched_step);
         (self.base_force, self.dissipated_power) = (base_force, dissipated_power);
         (self.energy_input, self.energy_lost, self.contacts) = (energy_input, energy_lost, contacts);

@@ -30,7 +30,11 @@ impl TimeStepLimits {
             }
         }
         let effective_mass = 1.0 / (1.0 / lightest + 1.0 / second);
-        let tangential = if laws.skin.friction > 0.0 { 3.0 * laws.skin.stiffness } else { 0.0 };
+        let tangential = if laws.skin.friction > 0.0 {
+            3.0 * laws.skin.stiffness
+        } else {
+            0.0
+        };
         let stiffness = laws.normal.stiffness.max(tangential);
         let period = std::f64::consts::TAU * (effective_mass / stiffness).sqrt();
         let damping_time = effective_mass / laws.normal.damping;

@@ -21,9 +21,21 @@ fn parameters() -> Vec<Variable> {
         Variable::parameter(name, Unit::Metre, 1e-6..=1e3, start, &description)
     };
     vec![
-        Variable::parameter("gravity", Unit::MetrePerSecondSquared, 0.0..=1e4, 9.8, "Gravity, downwards"),
+        Variable::parameter(
+            "gravity",
+            Unit::MetrePerSecondSquared,
+            0.0..=1e4,
+            9.8,
+            "Gravity, downwards",
+        ),
         Variable::long_parameter("seed", 0..=i64::MAX, 1, "Seed of the order of the radii in the packing"),
-        Variable::parameter("box.width", Unit::Metre, 1e-6..=1e6, 0.40, "Inner width of the box; its middle is x = 0"),
+        Variable::parameter(
+            "box.width",
+            Unit::Metre,
+            1e-6..=1e6,
+            0.40,
+            "Inner width of the box; its middle is x = 0",
+        ),
         radius(RADII[0], 0.015, "first"),
         radius(RADII[1], 0.020, "second"),
         radius(RADII[2], 0.025, "last"),
@@ -55,7 +67,13 @@ fn parameters() -> Vec<Variable> {
             0.1,
             "Normal damping gamma_n of every contact",
         ),
-        Variable::parameter("contact.friction", Unit::One, 0.0..=1e6, 0.1, "Friction coefficient mu of every contact"),
+        Variable::parameter(
+            "contact.friction",
+            Unit::One,
+            0.0..=1e6,
+            0.1,
+            "Friction coefficient mu of every contact",
+        ),
         Variable::parameter(
             "time_step",
             Unit::Second,
@@ -69,7 +87,12 @@ fn parameters() -> Vec<Variable> {
 fn calculated(disks: u32) -> Vec<Variable> {
     let mut rows = vec![
         Variable::calculated("chosen_time_step", Unit::Second, 1e-5, "Time step in use"),
-        Variable::calculated("largest_time_step", Unit::Second, 1e-4, "Largest time step that would be accepted"),
+        Variable::calculated(
+            "largest_time_step",
+            Unit::Second,
+            1e-4,
+            "Largest time step that would be accepted",
+        ),
     ];
     rows.extend((1..=disks).map(|disk| {
         let description = format!("Radius of disk {disk}");
@@ -81,7 +104,12 @@ fn calculated(disks: u32) -> Vec<Variable> {
 fn outputs(disks: u32) -> Vec<Variable> {
     let energy = |name: &str, description: &str| Variable::output(name, Unit::Joule, 1e-3, description);
     let mut rows = vec![
-        Variable::output("mean_velocity", Unit::MetrePerSecond, 0.1, "Mean horizontal velocity of the disks now"),
+        Variable::output(
+            "mean_velocity",
+            Unit::MetrePerSecond,
+            0.1,
+            "Mean horizontal velocity of the disks now",
+        ),
         Variable::output(
             "mean_angular_velocity",
             Unit::RadianPerSecond,
@@ -95,23 +123,59 @@ fn outputs(disks: u32) -> Vec<Variable> {
             "Vertical force of the disks on the base, up: impulse over the last communication step divided by its length",
         ),
         Variable::output("base.position", Unit::Metre, 1e-3, "Displacement of the base now, up"),
-        Variable::output("base.acceleration", Unit::MetrePerSecondSquared, 10.0, "Acceleration of the base now, up"),
+        Variable::output(
+            "base.acceleration",
+            Unit::MetrePerSecondSquared,
+            10.0,
+            "Acceleration of the base now, up",
+        ),
         energy("energy.kinetic", "Kinetic energy of translation and rotation"),
-        energy("energy.potential", "Energy in gravity, zero at the start"),
+        energy(
+            "energy.potential",
+            "Energy in gravity, zero at the height of the base at rest",
+        ),
         energy("energy.elastic", "Energy in the springs and skins of closed contacts"),
         energy("energy.input", "Work done by the base on the disks since the start"),
         energy("energy.lost", "Energy lost in the dashpots and by slip since the start"),
-        energy("energy.residual", "Change of energy less work of the base plus losses: the integration's own error"),
+        energy(
+            "energy.residual",
+            "Change of energy less work of the base plus losses: the integration's own error",
+        ),
         Variable::count_output("contacts", "Closed contacts, with the walls and the base"),
     ];
     let mut each = |prefix: &str, unit: Unit, nominal: f64, what: &str| {
         rows.extend((1..=disks).map(|disk| {
-            Variable::output(format!("{prefix}[{disk}]"), unit, nominal, format!("{what} of disk {disk}"))
+            Variable::output(
+                format!("{prefix}[{disk}]"),
+                unit,
+                nominal,
+                format!("{what} of disk {disk}"),
+            )
         }));
     };
-    each("disk.angle", Unit::Radian, 1.0, "Angle turned, counter-clockwise and unwrapped,");
-    each("disk.angular_velocity", Unit::RadianPerSecond, 1.0, "Angular velocity, counter-clockwise,");
-    each("disk.x", Unit::Metre, 0.1, "Distance of the centre to the right of the middle of the box");
-    each("disk.y", Unit::Metre, 0.1, "Height of the centre above the base at rest");
+    each(
+        "disk.angle",
+        Unit::Radian,
+        1.0,
+        "Angle turned, counter-clockwise and unwrapped,",
+    );
+    each(
+        "disk.angular_velocity",
+        Unit::RadianPerSecond,
+        1.0,
+        "Angular velocity, counter-clockwise,",
+    );
+    each(
+        "disk.x",
+        Unit::Metre,
+        0.1,
+        "Distance of the centre to the right of the middle of the box",
+    );
+    each(
+        "disk.y",
+        Unit::Metre,
+        0.1,
+        "Height of the centre above the base at rest",
+    );
     rows
 }

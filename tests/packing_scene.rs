@@ -1,0 +1,258 @@
+//! The packing scene: conservation laws, symmetry, and bits that must not depend on how it is stepped.
+
+mod support;
+
+use jostle::Error;
+use jostle::drive::{FollowsInput, Sine};
+use jostle::engine::molecular_dynamics::{Gear5, Integrator, VelocityVerlet};
+use jostle::packing::{RadiusDistribution, advancing_front, mirrored};
+use jostle::scene::packing::{Packing, PackingOnInput, PackingOnSine};
+use jostle::scene::{Choice, Scene, Value};
+use support::{order, outputs_of, values_of};
+
+const SIXTY: Choice = Choice { disks: 60 };
+
+/// Amplitude of the base for Gamma at 80 Hz.
+fn at_gamma(gamma: f64) -> (&'static str, f64) {
+    ("drive.amplitude", Sine::amplitude_of(gamma, 80.0, 9.8))
+}
+
+/// Change of momentum = gravity + impulses of the walls, and the reaction forces reported add up to the base's impulse.
+fn momentum_balance<I: Integrator>() {
+    let values = values_of::<Packing<Sine, I>>(SIXTY, &[at_gamma(8.0)]);
+    let mut packing = Packing::<Sine, I>::new(SIXTY, 0.0, &values).unwrap();
+    let mass: f64 = packing.engine().setup().masses.iter().sum();
+    let (step, count) = (3.3e-4, 3000);
+    let mut reported = 0.0;
+    for i in 1..=count {
+        packing.advance_to(f64::from(i) * step, &values).unwrap();
+        reported += outputs_of(&packing, &values).real("base.reaction_force") * step;
+    }
+    let engine = packing.engine();
+    let [px, py] = engine.momentum();
+    let walls: Vec<[f64; 2]> = (0..3).map(|wall| engine.impulse_of_wall(wall)).collect();
+    let pushed = mass * 9.8 * f64::from(count) * step;
+    let sideways: f64 = walls.iter().map(|impulse| impulse[0]).sum();
+    let upwards: f64 = walls.iter().map(|impulse| impulse[1]).sum();
+    let residual = (px - sideways).hypot(py - upwards + pushed) / pushed;
+    println!(
+        "{}: momentum residual {residual:.1e} of the impulse of gravity",
+        I::NAME
+    );
+    assert!(residual < 1e-12, "{residual:e}");
+    assert!((reported + walls[0][1]).abs() < 1e-12 * pushed);
+}
+
+#[test]
+fn momentum_balances_to_rounding() {
+    momentum_balance::<VelocityVerlet>();
+    momentum_balance::<Gear5>();
+}
+
+/// Residual of the energy balance of a shaken packing, root mean square over seeds, over the energy put in and out.
+fn energy_residual<I: Integrator>(time_step: f64) -> f64 {
+    let residuals = (1..=6).map(|seed| {
+        let changes = [at_gamma(4.0), ("time_step", time_step), ("seed", f64::from(seed))];
+        let values = values_of::<Packing<Sine, I>>(SIXTY, &changes);
+        let mut packing = Packing::<Sine, I>::new(SIXTY, 0.0, &values).unwrap();
+        packing.advance_to(0.15, &values).unwrap();
+        let outputs = outputs_of(&packing, &values);
+        outputs.real("energy.residual") / outputs.real("energy.lost")
+    });
+    (residuals.map(|residual| residual * residual).sum::<f64>() / 6.0).sqrt()
+}
+
+/// Work of the base less losses is the change of energy; what is left over shrinks with the step at the order that
+/// impacts allow, which is the first (see the table of `tests/molecular_dynamics.rs`).
+#[test]
+fn energy_balances_with_the_step() {
+    for (name, residual) in [
+        (
+            VelocityVerlet::NAME,
+            energy_residual::<VelocityVerlet> as fn(f64) -> f64,
+        ),
+        (Gear5::NAME, energy_residual::<Gear5>),
+    ] {
+        let residuals = [1.6e-5, 4e-6, 1e-6].map(residual);
+        let order = order(residuals[0], residuals[2], 16.0);
+        println!("{name}: energy residual over losses at 16, 4, 1 us {residuals:?}, order {order:.2}");
+        assert!(order > 0.8 && residuals[2] < 2e-3, "{name}: {residuals:?}");
+    }
+}
+
+/// A packing and its mirror image turn oppositely, to the last bit, since the box is centred and sums run alike.
+#[test]
+fn mirrored_packings_turn_oppositely() {
+    let values = values_of::<PackingOnSine>(SIXTY, &[at_gamma(4.0)]);
+    let radii = RadiusDistribution::default().sample(60, 5).unwrap();
+    let disks = advancing_front(&radii, 0.4).unwrap();
+    let mut packing = PackingOnSine::of_disks(&disks, 0.0, &values).unwrap();
+    let mut image = PackingOnSine::of_disks(&mirrored(&disks), 0.0, &values).unwrap();
+    for i in 1..=20 {
+        packing.advance_to(f64::from(i) * 0.05, &values).unwrap();
+        image.advance_to(f64::from(i) * 0.05, &values).unwrap();
+        for (place, mirror) in packing.engine().now().places()[..60]
+            .iter()
+            .zip(image.engine().now().places())
+        {
+            assert_eq!([place[0], place[1], place[2]], [-mirror[0], mirror[1], -mirror[2]]);
+        }
+    }
+    let turned = packing.engine().now().places()[..60]
+        .iter()
+        .map(|place| place[2].abs())
+        .fold(0.0, f64::max);
+    assert!(turned > 0.01, "nothing turned: {turned}");
+}
+
+/// At rest on a base at rest the base carries the weight.
+#[test]
+fn base_carries_the_weight() {
+    let changes = [("contact.friction", 0.0), ("contact.normal_damping", 2.0)];
+    let values = values_of::<PackingOnInput>(SIXTY, &changes);
+    let mut packing = PackingOnInput::new(SIXTY, 0.0, &values).unwrap();
+    packing.advance_to(20.0, &values).unwrap();
+    packing.advance_to(20.5, &values).unwrap();
+    let weight = 9.8 * packing.engine().setup().masses.iter().sum::<f64>();
+    let outputs = outputs_of(&packing, &values);
+    assert!(
+        outputs.real("energy.kinetic") < 1e-9,
+        "{}",
+        outputs.real("energy.kinetic")
+    );
+    let force = outputs.real("base.reaction_force");
+    assert!(
+        (force + weight).abs() < 1e-3 * weight,
+        "{force} N on the base, weight {weight} N"
+    );
+}
+
+/// One step of 2h is two of h, to the bit, however h and the time step relate, and so is a step cut in odd pieces.
+#[test]
+fn split_steps_give_the_same_bits() {
+    let values = values_of::<PackingOnSine>(SIXTY, &[at_gamma(6.0)]);
+    let ends = [
+        vec![0.1],
+        vec![0.05, 0.1],
+        vec![1e-7, 0.012_345_6, 0.07, 0.070_000_1, 0.099_999_999, 0.1],
+    ];
+    let states = ends.map(|ends| {
+        let mut packing = PackingOnSine::new(SIXTY, 0.0, &values).unwrap();
+        for end in ends {
+            packing.advance_to(end, &values).unwrap();
+        }
+        let now = packing.engine().now();
+        (
+            packing.state().engine,
+            now.position.clone(),
+            now.velocity.clone(),
+            now.energy_lost,
+        )
+    });
+    assert_eq!(states[0], states[1]);
+    assert_eq!(states[0], states[2]);
+}
+
+/// The base follows sampled inputs; a state taken between two grid points, in the middle of the run, brings back the
+/// same bits, also in another instance.
+#[test]
+fn rollback_gives_the_same_bits() {
+    let mut values = values_of::<PackingOnInput>(SIXTY, &[]);
+    let shake = |packing: &mut PackingOnInput, values: &mut jostle::scene::Values, from: u32, to: u32| {
+        let step = 1.0 / (80.0 * 24.0);
+        for i in from..to {
+            let phase = std::f64::consts::TAU * f64::from(i) / 24.0;
+            let amplitude = Sine::amplitude_of(6.0, 80.0, 9.8);
+            values
+                .set_by_name("base.displacement", Value::Real(amplitude * phase.sin()))
+                .unwrap();
+            values
+                .set_by_name("base.velocity", Value::Real(amplitude * 502.654_824_6 * phase.cos()))
+                .unwrap();
+            packing.advance_to(f64::from(i + 1) * step, values).unwrap();
+        }
+    };
+    let mut packing = PackingOnInput::new(SIXTY, 0.0, &values).unwrap();
+    shake(&mut packing, &mut values, 0, 500);
+    let saved = packing.state();
+    let seen = outputs_of(&packing, &values);
+    shake(&mut packing, &mut values, 500, 900);
+    let ahead = (packing.state(), outputs_of(&packing, &values));
+
+    let mut other = PackingOnInput::new(SIXTY, 0.0, &values).unwrap();
+    for again in [&mut packing, &mut other] {
+        again.restore(&saved).unwrap();
+        assert_eq!(outputs_of(again, &seen), seen);
+        shake(again, &mut values, 500, 900);
+        assert_eq!((again.state(), outputs_of(again, &values)), ahead);
+    }
+}
+
+/// Ten threads with one packing each give what one alone gives.
+#[test]
+fn threads_give_the_same_bits() {
+    let run = || {
+        let values = values_of::<PackingOnSine>(SIXTY, &[at_gamma(4.0)]);
+        let mut packing = PackingOnSine::new(SIXTY, 0.0, &values).unwrap();
+        packing.advance_to(0.2, &values).unwrap();
+        packing.state()
+    };
+    let alone = run();
+    let threads: Vec<_> = (0..10).map(|_| std::thread::spawn(run)).collect();
+    for thread in threads {
+        assert_eq!(thread.join().unwrap(), alone);
+    }
+}
+
+/// A base that jumps by a metre is refused; the state stays, and the same step with tame inputs is then done.
+#[test]
+fn a_refused_step_keeps_the_state() {
+    let mut values = values_of::<PackingOnInput>(SIXTY, &[]);
+    let mut packing = PackingOnInput::new(SIXTY, 0.0, &values).unwrap();
+    packing.advance_to(0.01, &values).unwrap();
+    let before = packing.state();
+    values.set_by_name("base.displacement", Value::Real(1.0)).unwrap();
+    let refusal = packing.advance_to(0.011, &values).unwrap_err();
+    assert!(matches!(refusal, Error::Step { scene: "packing", .. }), "{refusal}");
+    assert_eq!(packing.state(), before);
+    values.set_by_name("base.displacement", Value::Real(0.0)).unwrap();
+    packing.advance_to(0.011, &values).unwrap();
+}
+
+#[test]
+fn parameters_that_cannot_work_are_refused_by_name() {
+    let refused = |changes: &[(&str, f64)]| {
+        let values = values_of::<PackingOnSine>(SIXTY, changes);
+        PackingOnSine::new(SIXTY, 0.0, &values)
+            .err()
+            .map(|error| error.to_string())
+            .unwrap_or_default()
+    };
+    let message = refused(&[("time_step", 1e-3)]);
+    assert!(
+        message.contains("time_step = 1e-3 s") && message.contains("at most"),
+        "{message}"
+    );
+    assert!(refused(&[("box.width", 0.04)]).contains("disk.radius_large"));
+    // The largest step that the message names is accepted.
+    let values = values_of::<PackingOnSine>(SIXTY, &[]);
+    let packing = PackingOnSine::new(SIXTY, 0.0, &values).unwrap();
+    let largest = outputs_of(&packing, &values).real("largest_time_step");
+    assert_eq!(refused(&[("time_step", largest)]), "");
+}
+
+/// The packing starts on the base wherever the base starts, and a lifted base lifts it.
+#[test]
+fn packing_starts_on_the_base() {
+    let values = values_of::<PackingOnInput>(SIXTY, &[("base.displacement", 0.25)]);
+    let packing = Packing::<FollowsInput, VelocityVerlet>::new(SIXTY, 0.0, &values).unwrap();
+    let lowest = packing
+        .engine()
+        .now()
+        .places()
+        .iter()
+        .zip(packing.engine().radii())
+        .map(|(place, radius)| place[1] - radius)
+        .fold(f64::INFINITY, f64::min);
+    assert!((lowest - 0.25).abs() < 1e-12);
+}

@@ -4,6 +4,7 @@
 //! Imports point one way: `fmi, main -> scene -> measure -> engine -> contact, drive -> geometry`.
 
 pub mod error;
+pub mod fmi;
 pub mod scene;
 
 pub use error::{Error, Result};

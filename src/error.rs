@@ -37,6 +37,15 @@ pub enum Error {
         /// What to do about it.
         remedy: String,
     },
+    /// A call that the boundary cannot accept: out of order, wrong length, unknown variable, unsupported function.
+    /// Nothing has changed.
+    #[error("{what}. {remedy}")]
+    Call {
+        /// What was asked, in which phase, and why it is refused.
+        what: String,
+        /// What to do about it.
+        remedy: String,
+    },
 }
 
 impl Error {
@@ -51,6 +60,14 @@ impl Error {
             name: name.into(),
             value: value.to_string(),
             allowed: allowed.into(),
+            remedy: remedy.into(),
+        }
+    }
+
+    /// Builds [`Error::Call`].
+    pub fn call(what: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::Call {
+            what: what.into(),
             remedy: remedy.into(),
         }
     }

@@ -7,6 +7,7 @@ pub mod contact;
 pub mod drive;
 pub mod engine;
 pub mod error;
+pub mod fmi;
 pub mod geometry;
 pub mod packing;
 pub mod scene;

@@ -80,6 +80,6 @@ pub trait Scene: Sized + Send + 'static {
     /// Goes back (or on) to a state of this same scene with these same parameters.
     ///
     /// # Errors
-    /// The state belongs to another scene, disk count or parameter set, or is damaged.
+    /// The state belongs to another scene, disk count or parameter set, or is damaged. The state is then as before.
     fn restore(&mut self, state: &Self::State) -> Result<()>;
 }

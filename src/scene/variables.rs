@@ -359,6 +359,41 @@ impl Values {
         Ok(())
     }
 
+    /// Puts back all values as [`Values::as_slice`] gave them, the computed ones too.
+    ///
+    /// # Errors
+    /// Another number of values, another kind, or a parameter or input outside its range. Nothing is stored then.
+    pub fn put_back(&mut self, values: &[Value]) -> Result<()> {
+        self.check_all(values)?;
+        self.values.copy_from_slice(values);
+        Ok(())
+    }
+
+    /// Says whether [`Values::put_back`] would accept `values`.
+    pub fn check_all(&self, values: &[Value]) -> Result<()> {
+        if values.len() != self.values.len() {
+            return Err(Error::state(
+                format!("it holds {} values, this scene has {}", values.len(), self.values.len()),
+                "Save and restore with the same FMU.",
+            ));
+        }
+        for (row, value) in self.table.rows().iter().zip(values) {
+            let given = matches!(row.causality, Causality::Parameter | Causality::Input);
+            match (&row.kind, value) {
+                _ if given => row.check(*value)?,
+                (Kind::Real(_), Value::Real(_)) => {}
+                (Kind::Integer { .. } | Kind::Long { .. }, Value::Integer(_)) => {}
+                _ => {
+                    return Err(Error::state(
+                        format!("{} has another type there", row.name),
+                        "Save it anew.",
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Stores a value by name after checking it.
     pub fn set_by_name(&mut self, name: &str, value: Value) -> Result<()> {
         let Some(position) = self.table.position(name) else {

@@ -1,0 +1,377 @@
+//! What both versions share: the handle behind `fmi2Component` and `fmi3Instance`, the way in and out of every call.
+
+use std::any::Any;
+use std::cell::UnsafeCell;
+use std::collections::HashMap;
+use std::ffi::c_void;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::ptr::null_mut;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+
+use super::logger::{Category, Logger};
+use super::memory;
+use crate::error::{Error, Result};
+use crate::fmi::instance::{Access, Instance};
+use crate::fmi::life_cycle::Version;
+use crate::fmi::snapshot::Snapshot;
+use crate::scene::{Scene, Value};
+
+/// `fmi2Component`, `fmi3Instance`, `fmi2FMUstate` or `fmi3FMUState`: opaque to the importer.
+pub type Opaque = *mut c_void;
+
+/// `fmi2Status` and `fmi3Status`, which agree where both have a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(i32)]
+pub enum Status {
+    /// Done.
+    Ok = 0,
+    /// Done, with a remark.
+    Warning = 1,
+    /// A step that could not be done; the state is the one before it.
+    Discard = 2,
+    /// Refused; nothing has changed, unless a message says that the instance has failed.
+    Error = 3,
+    /// Never returned: it would condemn the other instances too.
+    Fatal = 4,
+    /// Never returned: there are no asynchronous steps.
+    Pending = 5,
+}
+
+/// Tells a handle of ours from a pointer to something else, and from one that was freed (as far as that can be).
+const ALIVE: u64 = 0x6a6f_7374_6c65_464d;
+
+/// What an instance pointer points to.
+pub struct Handle<S: Scene> {
+    magic: AtomicU64,
+    /// A call is under way. A callback that calls back, or a second thread, is refused instead of aliasing `inner`.
+    busy: AtomicBool,
+    inner: UnsafeCell<Inner<S>>,
+}
+
+/// An instance with what it needs to talk to its importer.
+pub struct Inner<S: Scene> {
+    /// The component.
+    pub instance: Instance<S>,
+    /// The importer's log.
+    pub logger: Logger,
+    /// How the last step ended, for `fmi2GetStatus`.
+    pub last_step: Status,
+    version: Version,
+    states: HashMap<usize, Saved<S>>,
+}
+
+struct Saved<S: Scene> {
+    snapshot: Snapshot<S::State>,
+    bytes: Option<Vec<u8>>,
+}
+
+/// Makes an instance. Null, after a log message, when `make` refuses or panics.
+pub fn instantiate<S: Scene>(
+    version: Version,
+    function: &str,
+    logger: Logger,
+    make: impl FnOnce() -> Result<Instance<S>>,
+) -> Opaque {
+    match catch_unwind(AssertUnwindSafe(make)) {
+        Ok(Ok(instance)) => {
+            logger.log(
+                Status::Ok,
+                Category::Events,
+                &format!("{function}: {}", instance.token()),
+            );
+            let inner = Inner {
+                instance,
+                logger,
+                last_step: Status::Ok,
+                version,
+                states: HashMap::new(),
+            };
+            let handle = Handle {
+                magic: AtomicU64::new(ALIVE),
+                busy: AtomicBool::new(false),
+                inner: UnsafeCell::new(inner),
+            };
+            Box::into_raw(Box::new(handle)).cast()
+        }
+        Ok(Err(error)) => {
+            logger.log(Status::Error, Category::Error, &format!("{function}: {error}"));
+            null_mut()
+        }
+        Err(panic) => {
+            logger.log(
+                Status::Error,
+                Category::Error,
+                &format!("{function}: {}", describe(&*panic)),
+            );
+            null_mut()
+        }
+    }
+}
+
+/// Frees an instance with all its states. Null is ignored, as both standards ask.
+///
+/// # Safety
+/// `pointer` is null or an instance of this library that was not freed before.
+pub unsafe fn free<S: Scene>(pointer: Opaque, version: Version) {
+    // SAFETY: by the caller's promise.
+    let Some(handle) = (unsafe { handle::<S>(pointer) }) else {
+        return;
+    };
+    if handle.busy.swap(true, Ordering::Acquire) {
+        return; // from inside a callback of this very instance: freeing it now would pull it from under the call
+    }
+    // SAFETY: `busy` was taken, so nobody else looks inside.
+    if unsafe { &*handle.inner.get() }.version != version {
+        handle.busy.store(false, Ordering::Release);
+        return;
+    }
+    handle.magic.store(0, Ordering::Relaxed);
+    // SAFETY: made by `Box::into_raw` in `instantiate` and, by the caller's promise, not freed before.
+    let boxed = unsafe { Box::from_raw(pointer.cast::<Handle<S>>()) };
+    // A scene that panics when it is dropped has nobody left to tell.
+    let _ = catch_unwind(AssertUnwindSafe(|| drop(boxed)));
+}
+
+/// The way into an instance: checks the pointer, keeps others out, catches panics, logs what went wrong.
+///
+/// # Safety
+/// `pointer` is null or an instance of this library that was not freed.
+pub unsafe fn enter<S: Scene>(
+    pointer: Opaque,
+    version: Version,
+    function: &str,
+    work: impl FnOnce(&mut Inner<S>) -> Result<()>,
+) -> Status {
+    // SAFETY: by the caller's promise.
+    let Some(handle) = (unsafe { handle::<S>(pointer) }) else {
+        return Status::Error;
+    };
+    if handle.busy.swap(true, Ordering::Acquire) {
+        return Status::Error;
+    }
+    // SAFETY: `busy` was taken, so this is the only reference into the handle until it is given back below.
+    let inner = unsafe { &mut *handle.inner.get() };
+    let status = if inner.version == version {
+        inner.run(function, work)
+    } else {
+        Status::Error
+    };
+    handle.busy.store(false, Ordering::Release);
+    status
+}
+
+/// # Safety
+/// `pointer` is null or an instance of this library that was not freed.
+unsafe fn handle<'a, S: Scene>(pointer: Opaque) -> Option<&'a Handle<S>> {
+    let pointer = pointer.cast::<Handle<S>>();
+    if pointer.is_null() || !pointer.is_aligned() {
+        return None;
+    }
+    // SAFETY: not null, aligned (checked) and alive by the caller's promise. A shared reference is enough: what changes
+    // is in atomics and in the cell.
+    let handle = unsafe { &*pointer };
+    (handle.magic.load(Ordering::Relaxed) == ALIVE).then_some(handle)
+}
+
+impl<S: Scene> Inner<S> {
+    fn run(&mut self, function: &str, work: impl FnOnce(&mut Self) -> Result<()>) -> Status {
+        match catch_unwind(AssertUnwindSafe(|| work(self))) {
+            Ok(Ok(())) => Status::Ok,
+            Ok(Err(error @ Error::Step { .. })) => {
+                let message = format!("{function}: {error}");
+                self.logger.log(Status::Discard, Category::Discard, &message);
+                Status::Discard
+            }
+            Ok(Err(error)) => {
+                self.logger
+                    .log(Status::Error, Category::Error, &format!("{function}: {error}"));
+                Status::Error
+            }
+            Err(panic) => {
+                self.instance.fail();
+                let message = format!("{function}: {}. This instance has failed", describe(&*panic));
+                self.logger.log(Status::Error, Category::Error, &message);
+                Status::Error
+            }
+        }
+    }
+
+    /// Becomes as a new instance. Saved states stay: the importer frees them.
+    pub fn reset(&mut self) {
+        self.instance.reset();
+        self.last_step = Status::Ok;
+    }
+
+    /// Tells a change in the life of the instance.
+    pub fn tell(&self, function: &str) {
+        let (phase, time) = (self.instance.phase().name(), self.instance.time());
+        self.logger.log(
+            Status::Ok,
+            Category::Events,
+            &format!("{function}: {phase} at t = {time} s"),
+        );
+    }
+
+    /// Saves the state under `previous`, if that is one of ours, or under a new number.
+    ///
+    /// # Errors
+    /// The instance has failed.
+    pub fn save(&mut self, previous: Opaque) -> Result<Opaque> {
+        let snapshot = self.instance.save()?;
+        let number = match previous.addr() {
+            known if self.states.contains_key(&known) => known,
+            _ => next_number(),
+        };
+        Ok(self.keep(number, snapshot))
+    }
+
+    fn keep(&mut self, number: usize, snapshot: Snapshot<S::State>) -> Opaque {
+        self.states.insert(number, Saved { snapshot, bytes: None });
+        std::ptr::without_provenance_mut(number)
+    }
+
+    /// Goes back to a saved state.
+    ///
+    /// # Errors
+    /// Unknown state, or one that does not fit.
+    pub fn restore(&mut self, state: Opaque) -> Result<()> {
+        let saved = self.states.get(&state.addr()).ok_or_else(unknown_state)?;
+        self.instance.restore(&saved.snapshot)
+    }
+
+    /// Forgets a saved state. Null is ignored, as both standards ask.
+    ///
+    /// # Errors
+    /// Unknown state.
+    pub fn forget(&mut self, state: Opaque) -> Result<()> {
+        match self.states.remove(&state.addr()) {
+            None if !state.is_null() => Err(unknown_state()),
+            _ => Ok(()),
+        }
+    }
+
+    /// Bytes of a saved state; written once, since importers ask for the size first.
+    ///
+    /// # Errors
+    /// Unknown state.
+    pub fn bytes(&mut self, state: Opaque) -> Result<&[u8]> {
+        let saved = self.states.get_mut(&state.addr()).ok_or_else(unknown_state)?;
+        if saved.bytes.is_none() {
+            saved.bytes = Some(saved.snapshot.to_bytes(self.instance.token())?);
+        }
+        Ok(saved.bytes.as_deref().unwrap_or_default())
+    }
+
+    /// Makes a saved state of bytes.
+    ///
+    /// # Errors
+    /// Damaged or foreign bytes.
+    pub fn read_bytes(&mut self, bytes: &[u8]) -> Result<Opaque> {
+        let snapshot = self.instance.read_snapshot(bytes)?;
+        Ok(self.keep(next_number(), snapshot))
+    }
+
+    /// Reads variables into the importer's array.
+    ///
+    /// # Safety
+    /// `references` and `values` are null or have `count` elements.
+    ///
+    /// # Errors
+    /// Bad pointers, unknown references, other types, not computed yet.
+    pub unsafe fn get<T>(
+        &mut self,
+        (references, count): (*const u32, usize),
+        values: *mut T,
+        access: Access,
+        convert: impl Fn(Value) -> Option<T>,
+    ) -> Result<()> {
+        // SAFETY: by the caller's promise.
+        let references = unsafe { memory::slice(references, count, "the array of value references") }?;
+        // SAFETY: by the caller's promise.
+        let mut values = unsafe { memory::Output::new(values, count, "the array of values") }?;
+        for (index, reference) in references.iter().enumerate() {
+            let value = self.instance.get(*reference, access)?;
+            let value = convert(value).ok_or_else(|| {
+                Error::call(
+                    format!("value reference {reference} holds {value:?}, which does not fit this type"),
+                    "Read it through FMI 3.0.",
+                )
+            })?;
+            values.write(index, value);
+        }
+        Ok(())
+    }
+
+    /// Sets variables from the importer's array: all, or none if one is refused.
+    ///
+    /// # Safety
+    /// `references` and `values` are null or have `count` elements.
+    ///
+    /// # Errors
+    /// Bad pointers, unknown references, other types, values out of range, wrong phase.
+    pub unsafe fn set<T: Copy>(
+        &mut self,
+        (references, count): (*const u32, usize),
+        values: *const T,
+        access: Access,
+        convert: impl Fn(T) -> Value,
+    ) -> Result<()> {
+        // SAFETY: by the caller's promise.
+        let references = unsafe { memory::slice(references, count, "the array of value references") }?;
+        // SAFETY: by the caller's promise.
+        let values = unsafe { memory::slice(values, count, "the array of values") }?;
+        self.instance.set(references, access, |index| convert(values[index]))
+    }
+}
+
+/// A function that this component does not have: refused with the reason, never a crash.
+///
+/// # Safety
+/// As for [`enter`].
+pub unsafe fn unsupported<S: Scene>(pointer: Opaque, version: Version, function: &str, why: &str) -> Status {
+    // SAFETY: passed on.
+    unsafe {
+        enter::<S>(pointer, version, function, |_| {
+            Err(Error::call(why, "See the capability flags in modelDescription.xml."))
+        })
+    }
+}
+
+/// A getter or setter of a type that no variable has: legal for no variables, refused otherwise.
+///
+/// # Safety
+/// As for [`enter`].
+pub unsafe fn no_such_type<S: Scene>(pointer: Opaque, version: Version, function: &str, count: usize) -> Status {
+    // SAFETY: passed on.
+    unsafe {
+        enter::<S>(pointer, version, function, |_| match count {
+            0 => Ok(()),
+            _ => Err(Error::call(
+                "no variable is of this type",
+                "Take the types from modelDescription.xml.",
+            )),
+        })
+    }
+}
+
+/// Numbers are never used twice in a process, so that no state of one instance passes for one of another.
+fn next_number() -> usize {
+    static NEXT: AtomicUsize = AtomicUsize::new(1);
+    NEXT.fetch_add(1, Ordering::Relaxed)
+}
+
+fn unknown_state() -> Error {
+    Error::call(
+        "this FMU state is not one of this instance: never saved here, or freed",
+        "Pass a state that this instance saved or deserialized and did not free.",
+    )
+}
+
+fn describe(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+    format!(
+        "internal defect, please report it: {}",
+        text.unwrap_or("panic without a message")
+    )
+}

@@ -1,0 +1,125 @@
+//! Log messages to the importer: its own environment, only categories that the model description declares.
+
+use std::ffi::{CStr, CString, c_char, c_int, c_void};
+
+use super::common::Status;
+use crate::error::{Error, Result};
+use crate::fmi::LOG_CATEGORIES;
+
+/// `fmi2CallbackLogger`.
+pub type Fmi2Log = unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char, ...);
+/// `fmi3LogMessageCallback`.
+pub type Fmi3Log = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
+
+/// What a message is about; the discriminant is the index in [`LOG_CATEGORIES`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Category {
+    /// A refused call.
+    Error,
+    /// A refused step.
+    Discard,
+    /// Life cycle.
+    Events,
+}
+
+/// The importer's callback with the environment that it wants back.
+pub enum Callback {
+    /// FMI 2.0: with the instance's name and a format string.
+    Two {
+        /// Callback; an importer may leave it out.
+        log: Option<Fmi2Log>,
+        /// `componentEnvironment`, handed back untouched.
+        environment: *mut c_void,
+        /// Name of the instance.
+        name: CString,
+    },
+    /// FMI 3.0: with a plain message.
+    Three {
+        /// Callback; an importer may leave it out.
+        log: Option<Fmi3Log>,
+        /// `instanceEnvironment`, handed back untouched.
+        environment: *mut c_void,
+    },
+}
+
+/// Sends messages of the categories that are switched on.
+pub struct Logger {
+    callback: Callback,
+    on: [bool; LOG_CATEGORIES.len()],
+}
+
+impl Logger {
+    /// Errors and discarded steps are always told until the importer switches them off, the rest with `logging_on`.
+    pub fn new(callback: Callback, logging_on: bool) -> Self {
+        let mut on = [true; LOG_CATEGORIES.len()];
+        on[Category::Events as usize] = logging_on;
+        Self { callback, on }
+    }
+
+    /// Switches the named categories, or all if none is named.
+    ///
+    /// # Errors
+    /// A category that the model description does not declare; nothing is switched then.
+    pub fn switch(&mut self, on: bool, names: &[String]) -> Result<()> {
+        let mut chosen = [names.is_empty(); LOG_CATEGORIES.len()];
+        for name in names {
+            let Some(index) = LOG_CATEGORIES.iter().position(|(known, _)| known == name) else {
+                let declared: Vec<_> = LOG_CATEGORIES.iter().map(|(known, _)| *known).collect();
+                return Err(Error::call(
+                    format!("the log category {name:?} is unknown"),
+                    format!("Declared are: {}.", declared.join(", ")),
+                ));
+            };
+            chosen[index] = true;
+        }
+        for (state, _) in self.on.iter_mut().zip(chosen).filter(|(_, chosen)| *chosen) {
+            *state = on;
+        }
+        Ok(())
+    }
+
+    /// Sends `message` if its category is on.
+    pub fn log(&self, status: Status, category: Category, message: &str) {
+        const NAMES: [&CStr; LOG_CATEGORIES.len()] = [c"logStatusError", c"logStatusDiscard", c"logEvents"];
+        if !self.on[category as usize] {
+            return;
+        }
+        let category = NAMES[category as usize].as_ptr();
+        let clean = |message: String| CString::new(message.replace('\0', " ")).unwrap_or_default();
+        match &self.callback {
+            Callback::Two {
+                log: Some(log),
+                environment,
+                name,
+            } => {
+                // The message is a printf format by the standard, but not every importer expands it: with its percent
+                // signs doubled and no further argument it is safe in both.
+                let message = clean(message.replace('%', "%%"));
+                // SAFETY: the importer's own callback with its own environment; the strings outlive the call and the
+                // format takes no argument.
+                unsafe { log(*environment, name.as_ptr(), status as c_int, category, message.as_ptr()) }
+            }
+            Callback::Three {
+                log: Some(log),
+                environment,
+            } => {
+                let message = clean(message.into());
+                // SAFETY: the importer's own callback with its own environment; the strings outlive the call.
+                unsafe { log(*environment, status as c_int, category, message.as_ptr()) }
+            }
+            Callback::Two { log: None, .. } | Callback::Three { log: None, .. } => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn categories_are_those_declared() {
+        assert_eq!(LOG_CATEGORIES[Category::Error as usize].0, "logStatusError");
+        assert_eq!(LOG_CATEGORIES[Category::Discard as usize].0, "logStatusDiscard");
+        assert_eq!(LOG_CATEGORIES[Category::Events as usize].0, "logEvents");
+    }
+}

@@ -1,0 +1,455 @@
+//! A scene as a component: life cycle, communication points, values and saved states. Knows no C types.
+//!
+//! Needs: a [`Scene`]. Guarantees: a refused call changes nothing; reset equals a new instance; a state saved in any
+//! phase brings back the same bits. Not here: pointers, panics and log messages (`abi`), legal phases (`life_cycle`).
+
+use std::sync::Arc;
+
+use super::life_cycle::{Call, Phase};
+use super::snapshot::{Clock, Snapshot};
+use super::{TIME_REFERENCE, token};
+use crate::error::{Error, Result};
+use crate::scene::{Causality, Choice, Kind, Scene, Table, Value, Values, Variable};
+
+/// Importers add up communication points in their own way; as much of a step may differ from ours.
+const POINT_TOLERANCE_OF_STEP: f64 = 1e-6;
+/// As many units in the last place of the time may differ besides.
+const POINT_TOLERANCE_OF_TIME: f64 = 64.0 * f64::EPSILON;
+
+/// The type by which an importer reads or writes a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Access {
+    /// `fmi2Real`, `fmi3Float64`.
+    Real,
+    /// `fmi3Int32`.
+    Integer,
+    /// `fmi3Int64`.
+    Long,
+    /// `fmi2Integer`, which serves both.
+    AnyInteger,
+}
+
+impl Access {
+    fn fits(self, kind: &Kind) -> bool {
+        match kind {
+            Kind::Real(_) => self == Self::Real,
+            Kind::Integer { .. } => matches!(self, Self::Integer | Self::AnyInteger),
+            Kind::Long { .. } => matches!(self, Self::Long | Self::AnyInteger),
+        }
+    }
+}
+
+/// One component.
+pub struct Instance<S: Scene> {
+    token: String,
+    choice: Choice,
+    event_mode: bool,
+    phase: Phase,
+    clock: Clock,
+    values: Values,
+    scene: Option<S>,
+    /// A value was set after `scene` was built, so that `scene` has to be built anew. Only before initialisation ends.
+    stale: bool,
+}
+
+impl<S: Scene> Instance<S> {
+    /// A new component for `token`. `event_mode`: initialisation ends in event mode (FMI 3.0, if the importer asks).
+    ///
+    /// # Errors
+    /// The token is not of this scene.
+    pub fn new(token: &str, event_mode: bool) -> Result<Self> {
+        let (choice, rows) = token::read::<S>(token)?;
+        Ok(Self::start(
+            token.into(),
+            choice,
+            event_mode,
+            Arc::new(Table::new(rows)),
+        ))
+    }
+
+    fn start(token: String, choice: Choice, event_mode: bool, table: Arc<Table>) -> Self {
+        Self {
+            token,
+            choice,
+            event_mode,
+            phase: Phase::Instantiated,
+            clock: Clock {
+                start: 0.0,
+                now: 0.0,
+                stop: None,
+            },
+            values: Values::new(table),
+            scene: None,
+            stale: false,
+        }
+    }
+
+    /// Where it is in its life.
+    pub fn phase(&self) -> Phase {
+        self.phase
+    }
+
+    /// Present communication point \[s\].
+    pub fn time(&self) -> f64 {
+        self.clock.now
+    }
+
+    /// Token that it was made with.
+    pub fn token(&self) -> &str {
+        &self.token
+    }
+
+    /// Sets start and, if known, stop time \[s\]. The importer's tolerance is not used: steps are fixed or event-driven.
+    ///
+    /// # Errors
+    /// Wrong phase; times that are not finite or not in order.
+    pub fn set_up(&mut self, start: f64, stop: Option<f64>) -> Result<()> {
+        Call::SetupExperiment.check(self.phase)?;
+        if !start.is_finite() {
+            return Err(Error::parameter(
+                "start time",
+                start,
+                "a finite number of seconds",
+                "Give one.",
+            ));
+        }
+        if let Some(stop) = stop.filter(|stop| !stop.is_finite() || *stop < start) {
+            return Err(Error::parameter(
+                "stop time",
+                stop,
+                format!("finite and not before the start time {start} s"),
+                "Give such a time or leave it undefined.",
+            ));
+        }
+        self.clock = Clock {
+            start,
+            now: start,
+            stop,
+        };
+        Ok(())
+    }
+
+    /// Begins initialisation.
+    ///
+    /// # Errors
+    /// Wrong phase.
+    pub fn enter_initialization(&mut self) -> Result<()> {
+        Call::EnterInitialization.check(self.phase)?;
+        self.phase = Phase::Initialization;
+        self.stale = true;
+        Ok(())
+    }
+
+    /// Ends initialisation: freezes the parameters and computes the outputs.
+    ///
+    /// # Errors
+    /// Wrong phase, or the scene refuses the parameters. They may then be set anew.
+    pub fn exit_initialization(&mut self) -> Result<()> {
+        Call::ExitInitialization.check(self.phase)?;
+        self.build()?;
+        self.phase = if self.event_mode { Phase::Event } else { Phase::Step };
+        Ok(())
+    }
+
+    /// Enters event mode (FMI 3.0).
+    ///
+    /// # Errors
+    /// Wrong phase, or event mode was not asked for when the instance was made.
+    pub fn enter_event_mode(&mut self) -> Result<()> {
+        Call::EnterEvent.check(self.phase)?;
+        if !self.event_mode {
+            return Err(Error::call(
+                "event mode was not asked for when the instance was made",
+                "Instantiate with eventModeUsed = true, or do without: this scene has no events.",
+            ));
+        }
+        self.phase = Phase::Event;
+        Ok(())
+    }
+
+    /// Iterates on events, of which there are none.
+    ///
+    /// # Errors
+    /// Wrong phase.
+    pub fn update_discrete_states(&mut self) -> Result<()> {
+        Call::UpdateDiscreteStates.check(self.phase)
+    }
+
+    /// Leaves event mode.
+    ///
+    /// # Errors
+    /// Wrong phase.
+    pub fn enter_step_mode(&mut self) -> Result<()> {
+        Call::EnterStep.check(self.phase)?;
+        self.phase = Phase::Step;
+        Ok(())
+    }
+
+    /// Advances from `current` \[s\] by `step` \[s\].
+    ///
+    /// # Errors
+    /// [`Error::Step`] if the scene cannot do it; anything else if the arguments are wrong. Time, values and state are
+    /// then as before, and the importer may try again.
+    pub fn do_step(&mut self, current: f64, step: f64) -> Result<()> {
+        Call::DoStep.check(self.phase)?;
+        let end = self.end_of_step(current, step)?;
+        let Some(scene) = &mut self.scene else {
+            return Err(Error::call("the scene was never initialised", "Reset the instance."));
+        };
+        scene.advance_to(end, &self.values)?;
+        scene.write_outputs(self.values.writer());
+        self.clock.now = end;
+        Ok(())
+    }
+
+    /// The importer's own sum, so that its next communication point is ours bit for bit.
+    fn end_of_step(&self, current: f64, step: f64) -> Result<f64> {
+        let now = self.clock.now;
+        if !(step.is_finite() && step > 0.0) {
+            return Err(Error::parameter(
+                "communication step size",
+                format!("{step} s"),
+                "finite and greater than 0",
+                "Both standards ask for steps forward in time; read outputs without a step.",
+            ));
+        }
+        let tolerance = POINT_TOLERANCE_OF_STEP * step + POINT_TOLERANCE_OF_TIME * now.abs();
+        let fits = (current - now).abs() <= tolerance;
+        if !fits {
+            return Err(Error::parameter(
+                "current communication point",
+                format!("{current} s"),
+                format!("{now} s within {tolerance:e} s, where the last step ended"),
+                "Steps join without gaps; restore a saved state to go back.",
+            ));
+        }
+        let end = current + step;
+        if !(end.is_finite() && end > now) {
+            return Err(Error::parameter(
+                "communication step size",
+                format!("{step} s"),
+                format!("large enough to move the time {now} s in double precision"),
+                "Take larger steps or start nearer to time zero.",
+            ));
+        }
+        match self.clock.stop {
+            Some(stop) if end > stop + tolerance + POINT_TOLERANCE_OF_TIME * stop.abs() => Err(Error::parameter(
+                "end of the step",
+                format!("{end} s"),
+                format!("not after the stop time {stop} s given at set-up"),
+                "Shorten the step or leave the stop time undefined.",
+            )),
+            _ => Ok(end),
+        }
+    }
+
+    /// Ends the simulation.
+    ///
+    /// # Errors
+    /// Wrong phase.
+    pub fn terminate(&mut self) -> Result<()> {
+        Call::Terminate.check(self.phase)?;
+        self.phase = Phase::Terminated;
+        Ok(())
+    }
+
+    /// Becomes as a new instance, whatever happened before.
+    pub fn reset(&mut self) {
+        let table = Arc::clone(self.values.table());
+        *self = Self::start(std::mem::take(&mut self.token), self.choice, self.event_mode, table);
+    }
+
+    /// Marks the instance after a panic: nothing that the scene holds may be trusted.
+    pub fn fail(&mut self) {
+        self.phase = Phase::Failed;
+        self.stale = true;
+    }
+
+    /// Value behind `reference`.
+    ///
+    /// # Errors
+    /// Unknown reference, other type, or an output before initialisation.
+    pub fn get(&mut self, reference: u32, access: Access) -> Result<Value> {
+        if reference == TIME_REFERENCE && access == Access::Real {
+            return Ok(Value::Real(self.clock.now));
+        }
+        let position = self.position(reference, access)?;
+        if computed(&self.values.table().rows()[position]) {
+            match self.phase {
+                Phase::Instantiated => {
+                    return Err(Error::call(
+                        format!("{} is not computed yet", self.values.table().rows()[position].name),
+                        "Enter initialization mode first.",
+                    ));
+                }
+                Phase::Initialization => self.build()?,
+                _ => {}
+            }
+        }
+        Ok(self.values.as_slice()[position])
+    }
+
+    /// Stores all values or, if one of them is refused, none.
+    ///
+    /// # Errors
+    /// Unknown reference, other type, not to be set in this phase or at all, not finite, out of range.
+    pub fn set(&mut self, references: &[u32], access: Access, value: impl Fn(usize) -> Value) -> Result<()> {
+        for (index, reference) in references.iter().enumerate() {
+            let position = self.position(*reference, access)?;
+            let row = &self.values.table().rows()[position];
+            self.check_settable(row)?;
+            row.check(value(index))?;
+        }
+        for (index, reference) in references.iter().enumerate() {
+            let position = self.position(*reference, access)?;
+            self.values.set(position, value(index))?;
+        }
+        self.stale |= self.phase == Phase::Initialization && !references.is_empty();
+        Ok(())
+    }
+
+    fn check_settable(&self, row: &Variable) -> Result<()> {
+        let before = matches!(self.phase, Phase::Instantiated | Phase::Initialization);
+        let running = matches!(self.phase, Phase::Event | Phase::Step);
+        let remedy = match row.causality {
+            Causality::Parameter if before => return Ok(()),
+            Causality::Input if before || running => return Ok(()),
+            Causality::Parameter => "Parameters are frozen when initialization ends: reset, then set it.",
+            Causality::Input => "Inputs may be set until the simulation is terminated.",
+            Causality::Output | Causality::CalculatedParameter => "The scene computes it: read it only.",
+        };
+        Err(Error::call(
+            format!("{} cannot be set in the phase {}", row.name, self.phase.name()),
+            remedy,
+        ))
+    }
+
+    fn position(&self, reference: u32, access: Access) -> Result<usize> {
+        let rows = self.values.table().rows();
+        let position = (reference as usize).wrapping_sub(1);
+        let Some(row) = rows.get(position) else {
+            let what = match reference {
+                TIME_REFERENCE => "value reference 0 is the time, a real that only steps change".into(),
+                _ => format!("value reference {reference} is unknown, there are 0 to {}", rows.len()),
+            };
+            return Err(Error::call(
+                what,
+                "Take the value references from modelDescription.xml.",
+            ));
+        };
+        if access.fits(&row.kind) {
+            return Ok(position);
+        }
+        let kind = match row.kind {
+            Kind::Real(_) => "real (Real, Float64)",
+            Kind::Integer { .. } => "32-bit integer (Integer, Int32)",
+            Kind::Long { .. } => "64-bit integer (Integer, Int64)",
+        };
+        Err(Error::call(
+            format!("{} (value reference {reference}) is of type {kind}", row.name),
+            "Call the function of this type.",
+        ))
+    }
+
+    fn build(&mut self) -> Result<()> {
+        if self.scene.is_none() || self.stale {
+            let scene = S::new(self.choice, self.clock.start, &self.values)?;
+            scene.write_outputs(self.values.writer());
+            self.scene = Some(scene);
+            self.stale = false;
+        }
+        Ok(())
+    }
+
+    /// Saves everything that may change.
+    ///
+    /// # Errors
+    /// The instance has failed.
+    pub fn save(&self) -> Result<Snapshot<S::State>> {
+        Call::SaveState.check(self.phase)?;
+        let scene = self.scene.as_ref().filter(|_| !self.stale);
+        Ok(Snapshot {
+            phase: self.phase,
+            clock: self.clock,
+            values: self.values.as_slice().to_vec(),
+            scene: scene.map(|scene| scene.state()),
+        })
+    }
+
+    /// Goes back (or on) to a saved state, in any phase.
+    ///
+    /// # Errors
+    /// The state does not fit this instance, which is then as before.
+    pub fn restore(&mut self, snapshot: &Snapshot<S::State>) -> Result<()> {
+        self.check(snapshot)?;
+        let mut values = self.values.clone();
+        values.put_back(&snapshot.values)?;
+        match &snapshot.scene {
+            None => {
+                self.scene = None;
+                self.stale = true;
+            }
+            Some(state) => {
+                let same = !self.stale && self.clock.start == snapshot.clock.start && self.same_parameters(&values);
+                match self.scene.as_mut().filter(|_| same) {
+                    Some(scene) => scene.restore(state)?,
+                    None => {
+                        let mut scene = S::new(self.choice, snapshot.clock.start, &values)?;
+                        scene.restore(state)?;
+                        self.scene = Some(scene);
+                    }
+                }
+                self.stale = false;
+            }
+        }
+        self.values = values;
+        self.clock = snapshot.clock;
+        self.phase = snapshot.phase;
+        Ok(())
+    }
+
+    /// Reads bytes that an instance of the same FMU wrote.
+    ///
+    /// # Errors
+    /// The bytes are damaged, foreign, or hold values out of range.
+    pub fn read_snapshot(&self, bytes: &[u8]) -> Result<Snapshot<S::State>> {
+        let snapshot = Snapshot::from_bytes(bytes, &self.token)?;
+        self.check(&snapshot)?;
+        Ok(snapshot)
+    }
+
+    fn check(&self, snapshot: &Snapshot<S::State>) -> Result<()> {
+        self.values.check_all(&snapshot.values)?;
+        let Clock { start, now, stop } = snapshot.clock;
+        let times = start.is_finite() && now.is_finite() && now >= start && stop.is_none_or(f64::is_finite);
+        let complete = match snapshot.phase {
+            Phase::Instantiated | Phase::Initialization => true,
+            Phase::Event | Phase::Step | Phase::Terminated => snapshot.scene.is_some(),
+            Phase::Failed => false,
+        };
+        if times && complete {
+            return Ok(());
+        }
+        Err(Error::state(
+            "its phase or times are impossible",
+            "Pass a state that saving gave.",
+        ))
+    }
+
+    /// Bit by bit, since a scene may tell 0.0 from -0.0.
+    fn same_parameters(&self, others: &Values) -> bool {
+        let bits = |value: &Value| match value {
+            Value::Real(real) => real.to_bits(),
+            Value::Integer(integer) => *integer as u64,
+        };
+        let rows = self.values.table().rows().iter();
+        let pairs = self.values.as_slice().iter().zip(others.as_slice());
+        rows.zip(pairs)
+            .filter(|(row, _)| row.causality == Causality::Parameter)
+            .all(|(_, (one, other))| bits(one) == bits(other))
+    }
+}
+
+fn computed(row: &Variable) -> bool {
+    matches!(row.causality, Causality::Output | Causality::CalculatedParameter)
+}

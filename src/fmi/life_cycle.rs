@@ -1,0 +1,129 @@
+//! Which call is legal in which phase: the state tables of both standards in one place.
+//!
+//! FMI 2.0 section 4.2.4 and FMI 3.0 sections 2.3 and 4.2. More lenient than the standards in three points, since
+//! nothing can go wrong there: parameters and inputs may be read in the phase `instantiated`, FMI 2.0's
+//! `fmi2SetupExperiment` may be left out (time then starts at 0), and a discarded step may be tried again without
+//! restoring a state first, since the state is the one before the step anyway.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+
+/// Version of the standard that an importer speaks to an instance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Version {
+    /// FMI 2.0.
+    Two,
+    /// FMI 3.0.
+    Three,
+}
+
+/// Where an instance is in its life.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Phase {
+    /// Made, parameters may be set.
+    Instantiated,
+    /// Between entering and leaving initialisation.
+    Initialization,
+    /// FMI 3.0 event mode. No scene has events as yet: nothing happens in it.
+    Event,
+    /// Ready for a step.
+    Step,
+    /// The simulation is over; values may be read.
+    Terminated,
+    /// A defect of the scene showed (a panic). Only reading, restoring a state, resetting and freeing are left.
+    Failed,
+}
+
+impl Phase {
+    /// Name for messages.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Instantiated => "instantiated",
+            Self::Initialization => "initialization mode",
+            Self::Event => "event mode",
+            Self::Step => "step mode",
+            Self::Terminated => "terminated",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+/// What an importer may ask of an instance, apart from reading and writing single values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Call {
+    /// `fmi2SetupExperiment`.
+    SetupExperiment,
+    /// Enter initialisation.
+    EnterInitialization,
+    /// Leave initialisation.
+    ExitInitialization,
+    /// Enter event mode.
+    EnterEvent,
+    /// Leave event mode for step mode.
+    EnterStep,
+    /// Iterate on events.
+    UpdateDiscreteStates,
+    /// Advance in time.
+    DoStep,
+    /// End the simulation.
+    Terminate,
+    /// Save the state.
+    SaveState,
+}
+
+impl Call {
+    const fn legal(self) -> &'static [Phase] {
+        match self {
+            Self::SetupExperiment | Self::EnterInitialization => &[Phase::Instantiated],
+            Self::ExitInitialization => &[Phase::Initialization],
+            Self::EnterStep | Self::UpdateDiscreteStates => &[Phase::Event],
+            Self::EnterEvent | Self::DoStep => &[Phase::Step],
+            Self::Terminate => &[Phase::Step, Phase::Event],
+            Self::SaveState => &[
+                Phase::Instantiated,
+                Phase::Initialization,
+                Phase::Event,
+                Phase::Step,
+                Phase::Terminated,
+            ],
+        }
+    }
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::SetupExperiment => "setting up the experiment",
+            Self::EnterInitialization => "entering initialization mode",
+            Self::ExitInitialization => "leaving initialization mode",
+            Self::EnterEvent => "entering event mode",
+            Self::EnterStep => "entering step mode",
+            Self::UpdateDiscreteStates => "updating discrete states",
+            Self::DoStep => "a step",
+            Self::Terminate => "terminating",
+            Self::SaveState => "saving the state",
+        }
+    }
+
+    /// Refuses this call unless it is legal in `phase`.
+    ///
+    /// # Errors
+    /// [`Error::Call`] with the call, the phase and the phases that were expected.
+    pub fn check(self, phase: Phase) -> Result<()> {
+        if self.legal().contains(&phase) {
+            return Ok(());
+        }
+        let expected: Vec<_> = self.legal().iter().map(|phase| phase.name()).collect();
+        let remedy = match phase {
+            Phase::Failed => "Reset the instance, restore a saved state or free it.".into(),
+            _ => format!("It is legal in: {}.", expected.join(", ")),
+        };
+        Err(Error::call(
+            format!(
+                "{} is not allowed while the instance is in the phase {}",
+                self.name(),
+                phase.name()
+            ),
+            remedy,
+        ))
+    }
+}

@@ -37,6 +37,16 @@ pub enum Error {
         /// What to do about it.
         remedy: String,
     },
+    /// A file that cannot be read or written.
+    #[error("{path}: {what}. {remedy}")]
+    File {
+        /// The file.
+        path: String,
+        /// What went wrong.
+        what: String,
+        /// What to do about it.
+        remedy: String,
+    },
     /// A call that the boundary cannot accept: out of order, wrong length, unknown variable, unsupported function.
     /// Nothing has changed.
     #[error("{what}. {remedy}")]
@@ -60,6 +70,15 @@ impl Error {
             name: name.into(),
             value: value.to_string(),
             allowed: allowed.into(),
+            remedy: remedy.into(),
+        }
+    }
+
+    /// Builds [`Error::File`].
+    pub fn file(path: &std::path::Path, what: impl ToString, remedy: impl Into<String>) -> Self {
+        Self::File {
+            path: path.display().to_string(),
+            what: what.to_string(),
             remedy: remedy.into(),
         }
     }

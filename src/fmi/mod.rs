@@ -15,13 +15,18 @@ pub mod life_cycle;
 pub mod snapshot;
 pub mod token;
 
-//X pub mod bundle;
-
-//X pub mod documentation;
-
-//X pub mod icon;
-
-//X pub mod model_description;
+#[cfg(feature = "command-line")]
+pub mod bundle;
+#[cfg(feature = "command-line")]
+pub mod documentation;
+#[cfg(feature = "command-line")]
+pub mod icon;
+#[cfg(feature = "command-line")]
+pub mod model_description;
+#[cfg(feature = "command-line")]
+pub mod terminals;
+#[cfg(feature = "command-line")]
+mod xml;
 
 pub use instance::Instance;
 pub use life_cycle::{Phase, Version};

@@ -41,6 +41,7 @@ class Loudspeaker:
         grains_weight: static load W [N] that the suspension already carries at x = 0.
         driver: Thiele-Small parameters.
         carried_mass: mass bolted to the cone [kg].
+
     """
 
     def __init__(

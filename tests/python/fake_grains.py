@@ -102,5 +102,3 @@ class TurningLump(SpringLump):
 def make_turning_lump(seed: int) -> TurningLump:
     """Factory for the protocol (importable by a spawned process)."""
     return TurningLump(seed)
-
-

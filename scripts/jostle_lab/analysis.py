@@ -47,7 +47,7 @@ def squared_correlation(paths: NDArray[np.float64]) -> NDArray[np.float64]:
     centred = paths - paths.mean(axis=0)
     spread = np.sum(centred**2, axis=0)
     product = time @ centred
-    return np.divide(product**2, np.sum(time**2) * spread, out=np.zeros_like(spread), where=spread > 0.0)
+    return np.asarray(np.divide(product**2, np.sum(time**2) * spread, out=np.zeros_like(spread), where=spread > 0.0))
 
 
 def nearest_neighbours_regression(

@@ -38,7 +38,7 @@ def unwrap(seen: NDArray[np.float64]) -> NDArray[np.float64]:
     jump = np.diff(seen, axis=0)
     shift = np.where(jump > 0.5 * HALF_TURN, HALF_TURN, np.where(jump < -0.5 * HALF_TURN, -HALF_TURN, 0.0))
     past = np.cumsum(shift[::-1], axis=0)[::-1]
-    return seen + np.concatenate((past, np.zeros_like(seen[:1])))
+    return np.asarray(seen + np.concatenate((past, np.zeros_like(seen[:1]))))
 
 
 @dataclass(frozen=True)

@@ -118,6 +118,7 @@ def run_packing(grains: Grains, setup: Setup, seed: int, folder: Path, progress:
         "costs": {**grains.costs, "loudspeaker": coupling.loudspeaker_cost, "sensors and analysis": sensor_cost},
         "full_drive_voltage": full_voltage,
         "grains_weight": grains.weight,
+        "box_width": grains.box_width,
         "moving_mass": loudspeaker.mass,
         "driver": asdict(loudspeaker.driver),
     }

@@ -67,8 +67,8 @@ class FmuGrains:
         self._description = read_model_description(str(path))
         self._variables = {v.name: v for v in self._description.modelVariables}
         self._directory = extract(str(path))
+        self._time = self._start = self._step = 0.0
         self._steps = 0
-        self._time = 0.0
         self._fmu: Any = None
         try:
             self._instantiate()
@@ -139,6 +139,7 @@ class FmuGrains:
         self._positions = self._group([f"disk.{axis}[{i}]" for i in indices for axis in "xy"])
         self.radii = self._read(self._group([f"disk.radius[{i}]" for i in indices])).copy()
         self.gravity = self.read("gravity")
+        self.box_width = self.read("box.width")
         area = float(np.pi * np.sum(self.radii**2))
         self.weight = self.read("disk.surface_density") * area * self.gravity
 
@@ -200,7 +201,7 @@ class FmuGrains:
 
     def _advance_clock(self, step: float) -> None:
         """Time is start + n h while h stays the same."""
-        if self._steps == 0 or step != self._step:
+        if step != self._step:
             self._start, self._step, self._steps = self._time, step, 0
         self._steps += 1
         self._time = self._start + self._steps * step
@@ -221,7 +222,7 @@ class FmuGrains:
         """See `Grains.save`."""
         started = perf_counter()
         state = self._fmu.getFMUstate() if self.fmi_version == 2 else self._fmu.getFMUState()
-        clock = (self._time, self._steps, getattr(self, "_start", 0.0), getattr(self, "_step", 0.0))
+        clock = (self._time, self._steps, self._start, self._step)
         self.costs["save and restore"] += perf_counter() - started
         return state, clock
 

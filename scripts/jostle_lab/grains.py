@@ -17,6 +17,8 @@ class Grains(Protocol):
     """Disk radii [m], shape (disks,)."""
     weight: float
     """Total weight of the disks [N]."""
+    box_width: float
+    """Inner width of the box [m]."""
     gravity: float
     """Acceleration of gravity [m/s2]."""
     costs: dict[str, float]

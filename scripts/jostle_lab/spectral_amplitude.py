@@ -36,6 +36,7 @@ def spectral_amplitude(
     record: NDArray[np.float64],
     data_rate: float,
     drive_frequency: float,
+    *,
     window: float = 10.0,
     side_band: float = 10.0,
     segment: int | None = None,
@@ -58,8 +59,8 @@ def spectral_amplitude(
         )
     if record.size < data_rate / window * 4:
         raise LabError(
-            f"spectral amplitude: {record.size} readings at {data_rate:g} Hz are too few for a window of {window:g} Hz. "
-            f"Record at least {4 / window:g} s."
+            f"spectral amplitude: {record.size} readings at {data_rate:g} Hz do not resolve a window of {window:g} Hz: "
+            f"record at least {4 / window:g} s."
         )
     if segment is None:
         frequencies, density = signal.periodogram(record, fs=data_rate, window="boxcar", detrend="constant")

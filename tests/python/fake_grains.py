@@ -18,6 +18,7 @@ class SpringLump:
     """
 
     gravity = 9.8
+    box_width = 0.40
 
     def __init__(self, mass: float = 0.28, stiffness: float = 1e5, damping: float = 1.0, disks: int = 60) -> None:
         self.mass, self.stiffness, self.damping = mass, stiffness, damping

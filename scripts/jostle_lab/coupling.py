@@ -16,6 +16,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
+from jostle_lab.errors import LabError
 from jostle_lab.grains import Grains
 from jostle_lab.loudspeaker import Loudspeaker
 
@@ -52,12 +53,26 @@ class Coupling:
         self._advance()
 
     def run(self, steps: int) -> NDArray[np.float64]:
-        """Advance by `steps`; return the base acceleration [m/s2] at the end of each, shape (steps,)."""
+        """Advance by `steps`; return the base acceleration [m/s2] at the end of each, shape (steps,).
+
+        Raises LabError when the base leaves the excursion of the driver, as it does in an unstable exchange.
+        """
         acceleration = np.empty(steps)
+        allowed = self.loudspeaker.driver.maximum_excursion
         for n in range(steps):
             self._advance()
+            if not abs(self.loudspeaker.displacement) <= allowed:
+                self._refuse_excursion()
             acceleration[n] = self.loudspeaker.acceleration(self.reaction_force)
         return acceleration
+
+    def _refuse_excursion(self) -> None:
+        speaker = self.loudspeaker
+        raise LabError(
+            f"{self.exchange.value} exchange: the base is at {speaker.displacement:.3g} m at t = {speaker.time:.6g} s, "
+            f"the driver ends at +-{speaker.driver.maximum_excursion:g} m. An unstable exchange? Take a smaller step "
+            f"(now {speaker.step_size:.3g} s) or the iterated exchange; or lower the drive."
+        )
 
     def _move_loudspeaker(self, force: float) -> float:
         started = perf_counter()

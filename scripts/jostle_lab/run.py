@@ -51,6 +51,7 @@ def run(plan: Plan, factory: GrainsFactory) -> None:
             total=len(plan.seeds) * duration,
             initial=finished,
             unit="s",
+            mininterval=0.5,
             desc=f"shaking {len(plan.seeds)} packing(s), simulated time",
             disable=not plan.show_progress,
         ) as bar,

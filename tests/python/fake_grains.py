@@ -88,7 +88,7 @@ class TurningLump(SpringLump):
     """A spring lump whose disks turn at constant rates, proportional to the mean square of the base velocity."""
 
     def __init__(self, seed: int = 1, disks: int = 60) -> None:
-        super().__init__(disks=disks)
+        super().__init__(stiffness=3e4, damping=20.0, disks=disks)
         self.rates = np.random.default_rng(seed).normal(size=disks)
         self.turned = np.zeros(disks)
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from fake_grains import SpringLump
 from jostle_lab.coupling import Coupling, Exchange
+from jostle_lab.errors import LabError
 from jostle_lab.loudspeaker import Loudspeaker
 from scipy.integrate import solve_ivp
 
@@ -111,6 +112,11 @@ def test_momentum_mean_force_is_minus_the_weight():
         coupling.advance()
         forces.append(coupling.reaction_force)
     assert np.mean(forces) == pytest.approx(-coupling.grains.weight, rel=1e-3)
+
+
+def test_unstable_exchange_is_told_with_the_remedy():
+    with pytest.raises(LabError, match=r"jacobi exchange: the base is at .* smaller step \(now 0.000417 s\)"):
+        Coupling(Loudspeaker(1.0 / 2400), SpringLump(), Exchange.JACOBI).run(24_000)
 
 
 def test_iterated_saves_and_frees_one_state_a_step():

@@ -53,7 +53,7 @@ def test_tables_hold_what_was_done(finished):
     assert strong["gamma_true"] == pytest.approx(5.0, rel=0.25)  # the lump loads the base
     assert weak["gamma_true"] == pytest.approx(0.4 * strong["gamma_true"], rel=1e-3)
     assert strong["gamma_measured"] == pytest.approx(strong["gamma_true"], rel=2e-3)
-    assert abs(strong["coupling_error"]) < 0.5
+    assert abs(strong["coupling_error"]) < 0.6
     time, angles = results.angles(1, 1.0)
     assert time.tolist() == [0, 1, 2, 3, 4, 5, 6]
     velocities = [disk["mean_velocity"] for disk in results.disks_of(1, 1.0)]

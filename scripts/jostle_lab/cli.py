@@ -28,7 +28,7 @@ app = typer.Typer(
     "accelerometers and a camera watch.",
 )
 
-DEMO_AMPLITUDES = "1,0.7,0.5,0.35,0.25,0.18,0.1,0.05"
+DEMO_AMPLITUDES = "1,0.7,0.5,0.35,0.25,0.18,0.12,0.08,0.05"
 
 FmuOption = Annotated[
     Path, typer.Option(help="Packing FMU, FMI 2.0 or 3.0, made by `jostle fmu packing --drive input`.")

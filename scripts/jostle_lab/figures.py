@@ -71,7 +71,7 @@ def angular_paths(results: Results) -> Figure:
     """Angle of every disk against time, one panel for each Gamma, as in P Fig. 3.1 (first packing)."""
     rows = sorted(results.amplitudes_of(results.seeds[0]), key=lambda row: row["gamma_true"])
     rows = [rows[i] for i in np.unique(np.linspace(0, len(rows) - 1, 9).round().astype(int))]
-    columns = 3 if len(rows) > 4 else 2
+    columns = {1: 1, 2: 2, 4: 2, 8: 4}.get(len(rows), 3)
     lines = math.ceil(len(rows) / columns)
     figure = Figure(figsize=(WIDTH, 0.5 + 1.95 * lines), layout="constrained")
     axes = figure.subplots(lines, columns, squeeze=False, sharex=True)
@@ -105,7 +105,10 @@ def packing(results: Results) -> Figure:
     disks = results.disks_of(results.seeds[0], row["amplitude"])
     velocities = np.array([disk["mean_velocity"] for disk in disks]) / RPM
     norm = _sense_norm(velocities)
-    figure = Figure(figsize=(WIDTH * 0.72, 5.0), layout="constrained")
+    half = 100.0 * 0.5 * results.box_width()
+    top = max(100.0 * (disk["y"] + disk["radius"]) for disk in disks) + 1.5
+    drawn = 0.68 * WIDTH
+    figure = Figure(figsize=(WIDTH * 0.92, drawn * (top + 1.0) / (2.0 * half + 2.0) + 0.75), layout="constrained")
     axes = figure.subplots()
     for disk, velocity in zip(disks, velocities, strict=True):
         centre = (100.0 * disk["x"], 100.0 * disk["y"])
@@ -113,13 +116,13 @@ def packing(results: Results) -> Figure:
             Circle(centre, 100.0 * disk["radius"], facecolor=SENSE(norm(velocity)), edgecolor="0.15", linewidth=0.6)
         )
         _turning_arrow(axes, centre, 100.0 * disk["radius"], velocity / norm.vmax if norm.vmax else 0.0)
-    half = 100.0 * 0.5 * results.box_width()
-    top = max(100.0 * (disk["y"] + disk["radius"]) for disk in disks) + 1.5
     axes.plot([-half, -half, half, half], [top, 0.0, 0.0, top], color="0.1", linewidth=1.6, solid_joinstyle="miter")
     axes.set(xlim=(-half - 1.0, half + 1.0), ylim=(-1.0, top), aspect="equal", xlabel="x [cm]", ylabel="y [cm]")
     axes.set_title(rf"$\Gamma$ = {row['gamma_true']:.2f}, packing of seed {results.seeds[0]}")
+    for side in ("left", "bottom"):
+        axes.spines[side].set_visible(False)
     scale = mpl.cm.ScalarMappable(norm, SENSE)
-    bar = figure.colorbar(scale, ax=axes, shrink=0.8, pad=0.02, extend="both")
+    bar = figure.colorbar(scale, ax=axes, shrink=0.72, aspect=28, pad=0.02, extend="both")
     bar.set_label("mean angular velocity [RPM]\nred clockwise, blue counter-clockwise")
     bar.outline.set_linewidth(0.5)
     return figure
@@ -189,12 +192,13 @@ def rotation_against_gamma(results: Results) -> Figure:
         mfc="none",
         label="accelerometers and camera",
     )
-    if len(results.seeds) > 2:
+    if len(results.seeds) >= 10:
         at = np.geomspace(rows[0]["gamma_true"], rows[-1]["gamma_true"], 200)
         smooth = nearest_neighbours_regression(column["gamma_true"], column["mean_square_rpm"], len(results.seeds), at)
         left.loglog(at, smooth, "-", color=dark, linewidth=0.8, label=f"{len(results.seeds)} nearest neighbours")
     _guide_lines(left, column["gamma_true"], column["mean_square_rpm"])
     left.set(xlabel=r"$\Gamma$", ylabel=r"$\langle\omega^2\rangle$ [RPM$^2$]")
+    _plain_ticks(left, column["gamma_true"])
     left.legend(loc="upper left")
     right.plot(column["gamma_true"], column["correlation"], "o", color=dark, ms=4, label=r"$\langle\rho^2\rangle$")
     right.plot(
@@ -205,6 +209,13 @@ def rotation_against_gamma(results: Results) -> Figure:
     right.set(xlabel=r"$\Gamma$", ylim=(0.0, 1.02), xlim=(0.0, None))
     right.legend(loc="best")
     return figure
+
+
+def _plain_ticks(axes: Any, gamma: NDArray[np.float64]) -> None:
+    """Gamma as 0.2, 0.5, 1, 2, 5 instead of powers of ten."""
+    ticks = [t for t in (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0) if 0.7 * gamma.min() <= t <= 1.4 * gamma.max()]
+    axes.set_xticks(ticks, [f"{t:g}" for t in ticks])
+    axes.minorticks_off()
 
 
 def _guide_lines(axes: Any, gamma: NDArray[np.float64], mean_square: NDArray[np.float64]) -> None:
@@ -221,5 +232,5 @@ def _guide_lines(axes: Any, gamma: NDArray[np.float64], mean_square: NDArray[np.
             style,
             color="0.5",
             lw=0.8,
-            label=f"slope {slope:g}",
+            label=f"slope {slope:.2f} (thesis)",
         )

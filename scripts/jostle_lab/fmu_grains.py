@@ -37,6 +37,13 @@ class FmuFactory:
         return FmuGrains(Path(self.path), {**dict(self.parameters), "seed": seed})
 
 
+def _describe(path: Path) -> Any:
+    try:
+        return read_model_description(str(path))
+    except Exception as error:
+        raise LabError(f"{path} is not a readable FMU: {error}. Bundle it again with `jostle fmu packing`.") from error
+
+
 class _Variables:
     """A fixed group of Float64 variables, read or written in one call."""
 
@@ -64,7 +71,7 @@ class FmuGrains:
         self.path = path
         self.costs = {"step": 0.0, "get and set": 0.0, "save and restore": 0.0}
         self._log: list[str] = []
-        self._description = read_model_description(str(path))
+        self._description = _describe(path)
         self._variables = {v.name: v for v in self._description.modelVariables}
         self._directory = extract(str(path))
         self._time = self._start = self._step = 0.0

@@ -110,6 +110,9 @@ def test_grains_at_rest_push_with_their_weight_and_take_no_work(fmu: Path):
 def test_errors_name_file_variable_and_remedy(fmu3: Path, tmp_path: Path):
     with pytest.raises(LabError, match=r"No FMU at .*nothing.fmu. Make one: target/release/jostle fmu packing"):
         FmuFactory(str(tmp_path / "nothing.fmu"))(1)
+    (tmp_path / "broken.fmu").write_text("not a zip")
+    with pytest.raises(LabError, match=r"broken.fmu is not a readable FMU"):
+        FmuFactory(str(tmp_path / "broken.fmu"))(1)
     with pytest.raises(LabError, match=r"has no variable contact.glue"):
         FmuGrains(fmu3, {"contact.glue": 1.0})
     with pytest.raises(LabError, match=r"contact\.friction"):

@@ -18,7 +18,7 @@ from jostle_lab.accelerometer import STANDARD_GRAVITY, Accelerometer
 from jostle_lab.analysis import rotation
 from jostle_lab.camera import Camera, aliasing, photograph, unwrap
 from jostle_lab.coupling import Coupling, Exchange
-from jostle_lab.errors import LabError
+from jostle_lab.errors import LabError, require
 from jostle_lab.grains import Grains
 from jostle_lab.loudspeaker import Loudspeaker
 from jostle_lab.protocol import Interval, Protocol
@@ -48,15 +48,25 @@ class Setup:
     accelerometer: Accelerometer = field(default_factory=Accelerometer)
     camera: Camera = field(default_factory=Camera)
 
+    def __post_init__(self) -> None:
+        """Refuse rates that do not fit together, before anything runs."""
+        require("steps per second", self.steps_per_second, 400, 1e5, "2400 suits the thesis' packing.")
+        require("Gamma at full drive", self.full_drive_gamma, 0.01, 8.0, "The thesis goes to about 5.")
+        for name, rate in (
+            ("drive frequency", self.drive_frequency),
+            ("accelerometers' data rate", self.accelerometer.data_rate),
+            ("camera's frame rate", self.camera.frame_rate),
+        ):
+            ratio = self.steps_per_second / rate
+            if not math.isclose(ratio, round(ratio), rel_tol=1e-9):
+                raise LabError(
+                    f"steps per second = {self.steps_per_second} is not a multiple of the {name}, {rate:g} Hz. "
+                    "Choose a multiple of all rates, such as 2400."
+                )
+
     def steps_per_frame(self) -> int:
-        """Communication steps between two pictures; raises LabError if that is no whole number."""
-        ratio = self.steps_per_second / self.camera.frame_rate
-        if not math.isclose(ratio, round(ratio), rel_tol=1e-9):
-            raise LabError(
-                f"{self.steps_per_second} steps a second are not a multiple of {self.camera.frame_rate:g} frames a "
-                "second. Choose 2400 steps a second."
-            )
-        return round(ratio)
+        """Communication steps between two pictures."""
+        return round(self.steps_per_second / self.camera.frame_rate)
 
 
 @dataclass

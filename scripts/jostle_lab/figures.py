@@ -206,8 +206,8 @@ def rotation_against_gamma(results: Results) -> Figure:
     )
     right.axhline(0.43, color="0.1", linewidth=0.6, linestyle=":")
     right.text(column["gamma_true"][-1], 0.44, r"driftless walk, $\rho^2$", ha="right", va="bottom", fontsize=7)
-    right.set(xlabel=r"$\Gamma$", ylim=(0.0, 1.02), xlim=(0.0, None))
-    right.legend(loc="best")
+    right.set(xlabel=r"$\Gamma$", ylabel="steadiness of the paths", ylim=(-0.02, 1.05), xlim=(0.0, None))
+    right.legend(loc="center right", bbox_to_anchor=(1.0, 0.68))
     return figure
 
 

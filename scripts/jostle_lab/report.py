@@ -27,6 +27,7 @@ def write_report(results: Results) -> Path:
         f"Camera: one frame in {1.0 / results.setup['camera']['frame_rate']:g} s; it cannot tell more than "
         f"{_alias_limit_rpm(results):g} RPM. Aliased: disks whose excursion by camera is not the true one. A driftless "
         "random walk has rho^2 = 0.43 on average. Largest move: of the centre of a disk while recording.",
+        _aliased_disks(results),
         "## Cost of the loop",
         _cost_table(results),
     ]
@@ -147,6 +148,27 @@ def _rotation_table(results: Results) -> str:
             ]
         )
     return markdown_table(header, rows)
+
+
+def _aliased_disks(results: Results, shown: int = 12) -> str:
+    """Which disks the camera has wrong, and by how much."""
+    wrong = [disk for disk in results.disks if disk["aliased"]]
+    if not wrong:
+        return "The camera sees every disk right."
+    rpm = 30.0 / math.pi
+    header = ["seed", "A", "disk", "true [RPM]", "by camera [RPM]"]
+    rows = [
+        [
+            f"{disk['seed']:.0f}",
+            f"{disk['amplitude']:.2f}",
+            f"{disk['disk']:.0f}",
+            f"{disk['mean_velocity'] * rpm:+.2f}",
+            f"{disk['camera_velocity'] * rpm:+.2f}",
+        ]
+        for disk in sorted(wrong, key=lambda d: -abs(d["mean_velocity"]))[:shown]
+    ]
+    title = f"The camera has {len(wrong)} of {len(results.disks)} excursions wrong; the fastest:"
+    return f"{title}\n\n{markdown_table(header, rows)}"
 
 
 def _alias_limit_rpm(results: Results) -> float:

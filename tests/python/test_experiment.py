@@ -45,6 +45,11 @@ def test_protocol_refuses_what_cannot_be():
         protocol.scaled_down((), 20)
 
 
+def test_setup_refuses_rates_that_do_not_fit():
+    with pytest.raises(LabError, match=r"1000 is not a multiple of the drive frequency, 80 Hz\. .*2400"):
+        Setup(protocol.thesis(), steps_per_second=1000)
+
+
 def test_tables_hold_what_was_done(finished):
     results = Results(finished)
     assert results.seeds == [1, 2]

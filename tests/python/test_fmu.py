@@ -92,12 +92,12 @@ def test_coupling_error_of_grains_first_shrinks_with_the_step(fmu3: Path):
 
 
 def test_momentum_mean_force_is_minus_the_weight(fmu: Path):
-    """Whole periods after settling: the grains' momentum changes by no more than the noise of a second's end points."""
-    with closing(FmuGrains(fmu, {"seed": 1})) as grains:
+    """Without friction the walls carry nothing: what is left is the change of momentum over ten seconds."""
+    with closing(FmuGrains(fmu, {"seed": 1, "contact.friction": 0.0})) as grains:
         shake(grains, 4800, gamma=1.0)
         forces = shake(grains, 24_000, first=4800, gamma=1.0)
-        # the walls carry nothing vertical on average but friction; the disks end where they began
-        assert np.mean(forces) == pytest.approx(-grains.weight, rel=0.03)
+        mass, seconds, fastest = grains.weight / grains.gravity, 10.0, 0.05
+        assert abs(np.mean(forces) + grains.weight) < 2.0 * mass * fastest / seconds
 
 
 def test_grains_at_rest_push_with_their_weight_and_take_no_work(fmu: Path):

@@ -1,0 +1,10 @@
+"""The laboratory of vibrated granular disks on a computer.
+
+An amplifier drives a loudspeaker, the loudspeaker shakes the bottom of a box, the grains in the box push back, two
+accelerometers and a camera watch. The grains are an FMU; everything else is here:
+
+    voltage -> loudspeaker -> base displacement, velocity -> FMU -> reaction force -> loudspeaker
+
+SI units and radians everywhere; x right, y up, angles counter-clockwise positive. The laboratory is that of
+J. Peraza Mues, "Rotation in vibrated disk packings" (2018), sections 2.4 and 3.1; "P" in docstrings means that thesis.
+"""

@@ -1,0 +1,162 @@
+"""Command line: `python -m jostle_lab`. Thin: argument in, library call out."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from jostle_lab import protocol
+from jostle_lab.accelerometer import Accelerometer
+from jostle_lab.compare import compare_exchanges
+from jostle_lab.coupling import Exchange
+from jostle_lab.driver import CARRIED_MASSES, GBS_250F38CP01_04
+from jostle_lab.errors import LabError
+from jostle_lab.experiment import Setup
+from jostle_lab.figures import draw_all
+from jostle_lab.fmu_grains import FmuFactory
+from jostle_lab.loudspeaker import Loudspeaker
+from jostle_lab.report import write_report
+from jostle_lab.results import Results
+from jostle_lab.run import Plan, run
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    help="The laboratory of vibrated granular disks on a computer: a loudspeaker shakes a packing FMU, two "
+    "accelerometers and a camera watch.",
+)
+
+DEMO_AMPLITUDES = "1,0.7,0.5,0.35,0.25,0.18,0.12,0.08,0.05"
+
+FmuOption = Annotated[
+    Path, typer.Option(help="Packing FMU, FMI 2.0 or 3.0, made by `jostle fmu packing --drive input`.")
+]
+ResultsOption = Annotated[Path, typer.Option(help="Folder for CSV files, pictures and the page of numbers.")]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="NAME=VALUE", help="FMU parameter, such as contact.friction=0.2; may be repeated."),
+]
+
+
+def _parameters(assignments: list[str] | None) -> tuple[tuple[str, float], ...]:
+    parsed = []
+    for assignment in assignments or []:
+        name, equals, value = assignment.partition("=")
+        try:
+            if not equals:
+                raise ValueError
+            parsed.append((name.strip(), float(value)))
+        except ValueError:
+            raise LabError(f"--set {assignment} is not NAME=NUMBER. Write, say, --set contact.friction=0.2") from None
+    return tuple(parsed)
+
+
+def _amplitudes(text: str) -> tuple[float, ...]:
+    try:
+        return tuple(float(part) for part in text.split(","))
+    except ValueError:
+        raise LabError(f"--amplitudes {text} is not a list of numbers. Write, say, --amplitudes 1,0.5,0.2") from None
+
+
+@app.command()
+def demo(
+    fmu: FmuOption = Path("build/packing.fmu"),
+    results: ResultsOption = Path("results"),
+    full: Annotated[
+        bool, typer.Option("--full", help="The thesis' protocol: 25 packings, 32 amplitudes of 20 minutes. Resumable.")
+    ] = False,
+    exchange: Annotated[Exchange, typer.Option(help="Order of the exchange.")] = Exchange.GRAINS_FIRST,
+    seconds_per_amplitude: Annotated[
+        int, typer.Option(help="Simulated seconds for each amplitude, 8 to 1200, a quarter of them to relax.")
+    ] = 40,
+    amplitudes: Annotated[
+        str, typer.Option(help="Fractions of the full drive, separated by commas.")
+    ] = DEMO_AMPLITUDES,
+    packings: Annotated[int | None, typer.Option(min=1, max=1000, help="Number of packings; 2, or 25 if full.")] = None,
+    first_seed: Annotated[int, typer.Option(min=0, help="Seed of the first packing; the others follow.")] = 1,
+    processes: Annotated[int, typer.Option(min=1, max=256, help="Packings shaken at the same time.")] = 2,
+    steps_per_second: Annotated[
+        int, typer.Option(help="Exchanges a second: a multiple of 400 for 80 Hz and 200 Hz.")
+    ] = 2400,
+    full_drive_gamma: Annotated[
+        float, typer.Option(help="Gamma of the empty base at A = 1, at most 8; sets the amplifier's voltage.")
+    ] = 5.0,
+    sensor_bandwidth: Annotated[
+        float | None, typer.Option(help="Low-pass of the accelerometers [Hz]; the part's is 100. None: no filter.")
+    ] = None,
+    sensor_resolution: Annotated[
+        float, typer.Option(min=0.0, max=1.0, help="[g]; the thesis says 0.01, the part offers 0.0039 or 0.031.")
+    ] = 0.01,
+    parameters: SetOption = None,
+    progress: Annotated[bool, typer.Option(help="Show a progress bar.")] = True,
+) -> None:
+    """Shake packings with decreasing amplitude; write CSV files, pictures and a page of numbers."""
+    chosen = _parameters(parameters)
+    schedule = protocol.thesis() if full else protocol.scaled_down(_amplitudes(amplitudes), seconds_per_amplitude)
+    setup = Setup(
+        schedule,
+        steps_per_second,
+        exchange,
+        full_drive_gamma=full_drive_gamma,
+        accelerometer=Accelerometer(bandwidth=sensor_bandwidth, resolution=sensor_resolution),
+    )
+    count = packings if packings is not None else (25 if full else 2)
+    labels = (("FMU", fmu.name), *((name, f"{value:g}") for name, value in chosen))
+    plan = Plan(results, tuple(range(first_seed, first_seed + count)), setup, processes, progress, labels)
+    factory = FmuFactory(str(fmu), chosen)
+    factory(first_seed).close()  # a wrong file or parameter is told here, before any process starts
+    run(plan, factory)
+    _present(results)
+
+
+@app.command()
+def draw(results: ResultsOption = Path("results")) -> None:
+    """Draw the pictures and write the page of numbers of a results folder again."""
+    _present(results)
+
+
+@app.command()
+def exchanges(
+    fmu: FmuOption = Path("build/packing.fmu"),
+    seconds: Annotated[int, typer.Option(min=1, max=100, help="Simulated seconds for each line of the table.")] = 2,
+    amplitude: Annotated[float, typer.Option(min=0.01, max=1.0, help="Fraction of the full drive.")] = 0.5,
+    parameters: SetOption = None,
+) -> None:
+    """Compare the coupling error and the cost of the three orders of exchange for several step sizes."""
+    typer.echo(compare_exchanges(FmuFactory(str(fmu), _parameters(parameters)), seconds, amplitude))
+
+
+@app.command()
+def loudspeaker() -> None:
+    """Print the loudspeaker: driver, masses, and what full drive asks of it."""
+    speaker, driver = Loudspeaker(1.0 / 2400), GBS_250F38CP01_04
+    typer.echo(f"{driver.name}\n  {driver.source}")
+    for name, mass in CARRIED_MASSES.items():
+        typer.echo(f"  {mass:6.3f} kg  {name}")
+    typer.echo(f"  {speaker.mass:6.3f} kg  in all, with {driver.moving_mass} kg of cone and coil")
+    typer.echo(f"  {1e3 * speaker.static_sag():.2f} mm sag of {1e3 * driver.maximum_excursion:g} mm linear excursion")
+    for gamma in (0.2, 1.0, 5.0, 8.0):
+        voltage = speaker.voltage_for_acceleration(gamma * 9.8)
+        response = speaker.steady_state(voltage)
+        power = 0.5 * abs(response.current) ** 2 * driver.coil_resistance
+        typer.echo(
+            f"  Gamma {gamma:3.1f}: {voltage:6.2f} V, {abs(response.current):5.2f} A peak, {power:6.1f} W of "
+            f"{driver.rated_power:g} W, {1e3 * abs(response.displacement):.3f} mm"
+        )
+
+
+def _present(folder: Path) -> None:
+    results = Results(folder)
+    for path in [*draw_all(results), write_report(results)]:
+        typer.echo(path)
+
+
+def main() -> None:
+    """Entry point: what the user can put right is told in one line, without a traceback."""
+    try:
+        app()
+    except LabError as error:
+        typer.echo(f"error: {error}", err=True)
+        raise SystemExit(2) from None

@@ -1,2 +1,9 @@
 //! Command line: argument -> library call.
-fn main() {}
+
+mod command_line;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    command_line::main()
+}

@@ -1,0 +1,145 @@
+//! The command line as a user meets it: exit codes, messages, files.
+#![allow(clippy::unwrap_used)]
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+fn jostle(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_jostle"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+#[test]
+fn every_command_explains_itself_with_an_example() {
+    for command in ["describe", "run"] {
+        let output = jostle(&[command, "--help"]);
+        assert!(output.status.success());
+        assert!(text(&output.stdout).contains(&format!("Example:\n  jostle {command} packing")));
+    }
+}
+
+#[test]
+fn describe_lists_the_variables_of_the_chosen_drive() {
+    let input = text(&jostle(&["describe", "packing"]).stdout);
+    let sine = text(&jostle(&["describe", "packing", "--drive", "sine", "--disks", "7"]).stdout);
+    assert!(input.contains("base.displacement") && !input.contains("drive.amplitude"));
+    assert!(sine.contains("drive.amplitude") && !sine.contains("base.displacement"));
+    assert!(sine.contains("disk.angle[1..7]") && input.contains("disk.angle[1..60]"));
+}
+
+#[test]
+fn run_writes_the_samples_and_what_made_them() {
+    let file = folder("run").join("short.csv");
+    let path = file.to_str().unwrap();
+    let few = ["--disks", "6", "--set", "box.width=0.12", "--set", "seed=3"];
+    let output = jostle(&[&["run", "packing", "--seconds", "0.05", "--output", path], &few[..]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let mut reader = csv::Reader::from_path(&file).unwrap();
+    let header = reader.headers().unwrap().clone();
+    assert_eq!(
+        (
+            &header[0],
+            header.iter().filter(|name| name.starts_with("disk.angle[")).count()
+        ),
+        ("time", 6)
+    );
+    let times: Vec<f64> = reader.records().map(|row| row.unwrap()[0].parse().unwrap()).collect();
+    assert_eq!(times, [0.0, 0.01, 0.02, 0.03, 0.04, 0.05]);
+    let parameters = std::fs::read_to_string(file.with_extension("parameters.csv")).unwrap();
+    assert!(
+        parameters.contains("box.width,0.12,m\n") && parameters.contains("seed,3,1\n"),
+        "{parameters}"
+    );
+}
+
+#[test]
+fn wrong_arguments_end_with_code_2_and_a_remedy() {
+    let file = folder("wrong").join("never.csv");
+    let path = file.to_str().unwrap();
+    let cases: [(&[&str], &str); 7] = [
+        (&["run", "sandpile", "--seconds", "1"], "one of: packing"),
+        (&["run", "packing", "--seconds", "0"], "above 0"),
+        (&["run", "packing", "--seconds", "1", "--disks", "0"], "--disks = 0"),
+        (
+            &["run", "packing", "--seconds", "1", "--set", "box.width=-1"],
+            "box.width = -1",
+        ),
+        (
+            &["run", "packing", "--seconds", "1", "--set", "box.width=0.01"],
+            "box.width",
+        ),
+        (
+            &["run", "packing", "--seconds", "1", "--set", "time_step=0.5"],
+            "time_step",
+        ),
+        (&["describe", "packing", "--drive", "wind"], "one of: input, sine"),
+    ];
+    for (arguments, told) in cases {
+        let output = if arguments[0] == "run" {
+            [arguments, &["--output", path]].concat()
+        } else {
+            arguments.to_vec()
+        };
+        let output = jostle(&output);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(
+            text(&output.stderr).contains(told),
+            "{arguments:?}: {}",
+            text(&output.stderr)
+        );
+    }
+    assert!(!file.exists());
+}
+
+#[test]
+fn a_refused_step_ends_with_code_1_and_keeps_the_rows() {
+    let file = folder("refused").join("kept.csv");
+    let path = file.to_str().unwrap();
+    // One metre at 20 Hz: the base tears through the disks.
+    let wild = [
+        "--set",
+        "drive.amplitude=1",
+        "--set",
+        "drive.frequency=20",
+        "--sample",
+        "1e-4",
+    ];
+    let output = jostle(&[&["run", "packing", "--seconds", "1", "--output", path], &wild[..]].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    let rows = std::fs::read_to_string(&file).unwrap().lines().count() - 1;
+    assert!(
+        rows >= 1 && text(&output.stderr).contains(&format!("{rows} rows up to t = ")),
+        "{}",
+        text(&output.stderr)
+    );
+}
+
+#[test]
+fn a_file_that_cannot_be_written_ends_with_code_1() {
+    let output = jostle(&[
+        "run",
+        "packing",
+        "--seconds",
+        "0.01",
+        "--output",
+        "no/such/folder/run.csv",
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        text(&output.stderr).contains("cannot be written"),
+        "{}",
+        text(&output.stderr)
+    );
+}

@@ -1,5 +1,7 @@
 //! The molecular dynamics engine against closed forms, a reference of its own, and conservation laws.
 
+#![allow(clippy::unwrap_used)]
+
 mod support;
 
 use jostle::contact::{ElasticSkin, LinearDashpot};

@@ -4,6 +4,7 @@
 
 mod assignments;
 mod describe;
+mod fmu;
 mod run;
 mod scenes;
 #[cfg(test)]
@@ -30,6 +31,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Describe(describe::Describe),
+    Fmu(fmu::Fmu),
     Run(run::Run),
 }
 
@@ -115,6 +117,7 @@ impl fmt::Display for Failure {
 pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Describe(describe) => describe.execute(),
+        Command::Fmu(fmu) => fmu.execute(),
         Command::Run(run) => run.execute(),
     };
     match done {

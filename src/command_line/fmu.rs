@@ -1,0 +1,74 @@
+//! `jostle fmu`: writes a scene as an FMU.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use jostle::fmi::Version;
+use jostle::fmi::bundle::{self, Component};
+use jostle::scene::{Choice, Scene};
+
+use super::scenes::{Visitor, with_scene};
+use super::{Failure, Selection};
+
+/// Write a scene as an FMU.
+///
+/// The FMU holds the library, the model description, a documentation page, an icon and the licences. What drives the
+/// scene and how many disks it has is decided here, since both change its list of variables.
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  jostle fmu packing --fmi 3 --disks 60 --out packing.fmu")]
+pub struct Fmu {
+    #[command(flatten)]
+    selection: Selection,
+    /// Version of the standard.
+    #[arg(long, value_enum, default_value = "3")]
+    fmi: Standard,
+    /// What moves the base: the importer's inputs, or a sine of its own.
+    #[arg(long, default_value = "input")]
+    drive: String,
+    /// File to write.
+    #[arg(long, value_name = "FILE.fmu")]
+    out: PathBuf,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Standard {
+    /// FMI 2.0, co-simulation.
+    #[value(name = "2")]
+    Two,
+    /// FMI 3.0, co-simulation.
+    #[value(name = "3")]
+    Three,
+}
+
+impl Fmu {
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// An unknown scene, engine or drive, a wrong disk count, no library to put in, no place to write to.
+    pub fn execute(self) -> Result<(), Failure> {
+        let engine = self.selection.engine.clone();
+        let component = with_scene(
+            &self.selection.scene,
+            engine.as_deref(),
+            &self.drive,
+            Bundled(&self.selection),
+        )??;
+        let version = match self.fmi {
+            Standard::Two => Version::Two,
+            Standard::Three => Version::Three,
+        };
+        let library = bundle::find_library(component.card.identifier)?;
+        Ok(bundle::write(&component, version, &library, &self.out)?)
+    }
+}
+
+struct Bundled<'a>(&'a Selection);
+
+impl Visitor for Bundled<'_> {
+    type Output = Result<Component, Failure>;
+
+    fn visit<S: Scene>(self) -> Self::Output {
+        let choice: Choice = self.0.choice::<S>()?;
+        Ok(Component::of::<S>(choice)?)
+    }
+}

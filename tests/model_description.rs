@@ -1,0 +1,45 @@
+//! The model descriptions under `modelDescription/` are what the scenes generate.
+//!
+//! Regression test: it shows each change of an interface in the diff. To accept one:
+//! `UPDATE_MODEL_DESCRIPTIONS=1 cargo test --test model_description`, and a line in the change log.
+
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use jostle::fmi::Version;
+use jostle::fmi::bundle::Component;
+use jostle::scene::packing::{PackingOnInput, PackingOnSine};
+use jostle::scene::{Choice, Scene};
+
+fn committed<S: Scene>() {
+    let component = Component::of::<S>(Choice {
+        disks: S::card().default_disks,
+    })
+    .unwrap();
+    for (version, suffix) in [(Version::Two, "fmi2"), (Version::Three, "fmi3")] {
+        let name = format!("{}.{suffix}.xml", component.card.identifier);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("modelDescription")
+            .join(&name);
+        let generated = component.model_description(version);
+        if std::env::var_os("UPDATE_MODEL_DESCRIPTIONS").is_some() {
+            std::fs::write(&path, &generated).unwrap();
+        }
+        let same = std::fs::read_to_string(&path).is_ok_and(|kept| kept == generated);
+        assert!(
+            same,
+            "modelDescription/{name} is not what the scene generates; see the head of this test"
+        );
+    }
+}
+
+#[test]
+fn packing_on_input() {
+    committed::<PackingOnInput>();
+}
+
+#[test]
+fn packing_on_sine() {
+    committed::<PackingOnSine>();
+}

@@ -68,7 +68,7 @@ class Accelerometer:
         if stride < 1 or not math.isclose(ratio, stride, rel_tol=1e-9):
             raise LabError(
                 f"accelerometer: {sample_rate:g} Hz is not a multiple of the data rate {self.data_rate:g} Hz. "
-                "Choose a communication step that divides both the data period and the drive period, such as 1/2400 s."
+                "Choose a communication step that divides both the data period and the drive period, such as 1/4800 s."
             )
         seen = (acceleration - self.gravity) / STANDARD_GRAVITY
         if self.bandwidth is not None:

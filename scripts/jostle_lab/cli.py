@@ -13,7 +13,7 @@ from jostle_lab.driver import CARRIED_MASSES, GBS_250F38CP01_04
 from jostle_lab.errors import LabError
 from jostle_lab.experiment import Setup
 from jostle_lab.figures import draw_all
-from jostle_lab.fmu_grains import FmuFactory
+from jostle_lab.fmu_grains import FmuFactory, fingerprint
 from jostle_lab.loudspeaker import Loudspeaker
 from jostle_lab.report import write_report
 from jostle_lab.results import Results
@@ -79,7 +79,7 @@ def demo(
     processes: Annotated[int, typer.Option(min=1, max=256, help="Packings shaken at the same time.")] = 2,
     steps_per_second: Annotated[
         int, typer.Option(help="Exchanges a second: a multiple of 400 for 80 Hz and 200 Hz.")
-    ] = 2400,
+    ] = 4800,
     full_drive_gamma: Annotated[
         float, typer.Option(help="Gamma of the empty base at A = 1, at most 8; sets the amplifier's voltage.")
     ] = 5.0,
@@ -103,10 +103,10 @@ def demo(
         accelerometer=Accelerometer(bandwidth=sensor_bandwidth, resolution=sensor_resolution),
     )
     count = packings if packings is not None else (25 if full else 2)
-    labels = (("FMU", fmu.name), *((name, f"{value:g}") for name, value in chosen))
-    plan = Plan(results, tuple(range(first_seed, first_seed + count)), setup, processes, progress, labels)
     factory = FmuFactory(str(fmu), chosen)
     factory(first_seed).close()  # a wrong file or parameter is told here, before any process starts
+    labels = (("FMU binary", fingerprint(fmu)), *((name, f"{value:g}") for name, value in chosen))
+    plan = Plan(results, tuple(range(first_seed, first_seed + count)), setup, processes, progress, labels)
     run(plan, factory)
     _present(results)
 

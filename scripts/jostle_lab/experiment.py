@@ -38,7 +38,7 @@ class Setup:
     """Everything that decides the outcome besides the grains and the seed."""
 
     protocol: Protocol
-    steps_per_second: int = 2400
+    steps_per_second: int = 4800
     """Communication rate [Hz]: a multiple of the drive, of the data rate and of the frame rate."""
     exchange: Exchange = Exchange.GRAINS_FIRST
     drive_frequency: float = 80.0
@@ -50,7 +50,7 @@ class Setup:
 
     def __post_init__(self) -> None:
         """Refuse rates that do not fit together, before anything runs."""
-        require("steps per second", self.steps_per_second, 400, 1e5, "2400 suits the thesis' packing.")
+        require("steps per second", self.steps_per_second, 400, 1e5, "4800 suits the thesis' packing.")
         require("Gamma at full drive", self.full_drive_gamma, 0.01, 8.0, "The thesis goes to about 5.")
         for name, rate in (
             ("drive frequency", self.drive_frequency),
@@ -61,7 +61,7 @@ class Setup:
             if not math.isclose(ratio, round(ratio), rel_tol=1e-9):
                 raise LabError(
                     f"steps per second = {self.steps_per_second} is not a multiple of the {name}, {rate:g} Hz. "
-                    "Choose a multiple of all rates, such as 2400."
+                    "Choose a multiple of all rates, such as 4800."
                 )
 
     def steps_per_frame(self) -> int:

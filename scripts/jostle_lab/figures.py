@@ -91,6 +91,7 @@ def angular_paths(results: Results) -> Figure:
         panel.locator_params(axis="y", nbins=5)
     for panel in axes[:, 0]:
         panel.set_ylabel("angle [revolutions]")
+    figure.align_ylabels(axes[:, 0])
     for column in range(columns):
         shown = [panel for panel in axes[:, column] if panel.get_visible()]
         shown[-1].set_xlabel("time [s]")
@@ -153,22 +154,25 @@ def accelerometer_spectrum(results: Results) -> Figure:
         panel.axvspan(drive - 15.0, drive - 5.0, color="0.93", linewidth=0, label="side bands")
         panel.axvspan(drive + 5.0, drive + 15.0, color="0.93", linewidth=0)
         panel.axvspan(drive - 5.0, drive + 5.0, color="#f3d9a4", linewidth=0, label="window, 10 Hz")
-        for number, colour in enumerate(("#1f5fa8", "#2a8c55")):
+        for number, colour in enumerate(("#9dbfe0", "#14406f")):
             estimate = spectral_amplitude(record[:, number], rate, drive)
             panel.semilogy(
                 estimate.frequencies[1:],
                 estimate.density[1:],
                 color=colour,
                 linewidth=0.5,
-                alpha=0.85,
                 label=f"sensor {number + 1}, $a$ = {estimate.amplitude:.3f} g",
             )
+        folded = abs(2.0 * drive - rate * round(2.0 * drive / rate))
+        panel.annotate(
+            "2nd harmonic,\nfolded", (folded, 0.5), xycoords=("data", "axes fraction"), ha="center", fontsize=7
+        )
         panel.set_title(rf"A = {row['amplitude']:.2f}, true $\Gamma$ = {row['gamma_true']:.3f}")
         panel.set(xlabel="frequency [Hz]", xlim=(0.0, 0.5 * rate))
         panel.legend(loc="upper left")
     panels[0].set_ylabel(r"spectral density [g$^2$/Hz]")
     low, high = panels[0].get_ylim()
-    panels[0].set_ylim(max(low, 1e-10), high * 300.0)
+    panels[0].set_ylim(max(low, 1e-9), high * 1e3)
     return figure
 
 
@@ -181,14 +185,14 @@ def rotation_against_gamma(results: Results) -> Figure:
     positive = column["mean_square_rpm"] > 0.0
     dark, light = "0.1", "#d07a1f"
     left.loglog(
-        column["gamma_true"][positive], column["mean_square_rpm"][positive], "o", color=dark, ms=4, label="truth"
+        column["gamma_true"][positive], column["mean_square_rpm"][positive], "o", color=dark, ms=3, label="truth"
     )
     left.loglog(
         column["gamma_measured"],
         column["mean_square_rpm_camera"],
         "s",
         color=light,
-        ms=4,
+        ms=5.5,
         mfc="none",
         label="accelerometers and camera",
     )
@@ -199,13 +203,14 @@ def rotation_against_gamma(results: Results) -> Figure:
     _guide_lines(left, column["gamma_true"], column["mean_square_rpm"])
     left.set(xlabel=r"$\Gamma$", ylabel=r"$\langle\omega^2\rangle$ [RPM$^2$]")
     _plain_ticks(left, column["gamma_true"])
-    left.legend(loc="upper left")
+    left.legend(loc="lower right")
     right.plot(column["gamma_true"], column["correlation"], "o", color=dark, ms=4, label=r"$\langle\rho^2\rangle$")
     right.plot(
         column["gamma_true"], column["adjusted_deviation"], "o", color="0.6", ms=4, label=r"$\langle\sigma_a\rangle$"
     )
+    middle = right.get_yaxis_transform()
     right.axhline(0.43, color="0.1", linewidth=0.6, linestyle=":")
-    right.text(column["gamma_true"][-1], 0.44, r"driftless walk, $\rho^2$", ha="right", va="bottom", fontsize=7)
+    right.text(0.42, 0.435, r"driftless walk, $\rho^2$", ha="center", va="bottom", fontsize=7, transform=middle)
     right.set(xlabel=r"$\Gamma$", ylabel="steadiness of the paths", ylim=(-0.02, 1.05), xlim=(0.0, None))
     right.legend(loc="center right", bbox_to_anchor=(1.0, 0.68))
     return figure

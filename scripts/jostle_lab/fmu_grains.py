@@ -6,7 +6,10 @@ where fmpy's own wrappers build arrays anew.
 
 import ctypes
 import shutil
+import zipfile
+import zlib
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -14,6 +17,7 @@ from typing import Any
 
 import numpy as np
 from fmpy import extract, fmi2, read_model_description
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 from fmpy.logging import addLoggerProxy
@@ -42,6 +46,13 @@ def _describe(path: Path) -> Any:
         return read_model_description(str(path))
     except Exception as error:
         raise LabError(f"{path} is not a readable FMU: {error}. Bundle it again with `jostle fmu packing`.") from error
+
+
+def fingerprint(path: Path) -> str:
+    """Checksum of the binaries of an FMU, eight hexadecimal digits: the same physics, the same fingerprint."""
+    with zipfile.ZipFile(path) as archive:
+        sums = [entry.CRC for entry in archive.infolist() if entry.filename.startswith("binaries/")]
+    return f"{zlib.crc32(repr(sums).encode()):08x}"
 
 
 class _Variables:
@@ -253,7 +264,8 @@ class FmuGrains:
     def close(self) -> None:
         """See `Grains.close`."""
         if self._fmu is not None:
-            self._fmu.terminate()
+            with suppress(FMICallException):  # an instance that never ran or has failed cannot be terminated
+                self._fmu.terminate()
             self._fmu.freeInstance()
             self._fmu = None
         shutil.rmtree(self._directory, ignore_errors=True)

@@ -46,7 +46,7 @@ def test_protocol_refuses_what_cannot_be():
 
 
 def test_setup_refuses_rates_that_do_not_fit():
-    with pytest.raises(LabError, match=r"1000 is not a multiple of the drive frequency, 80 Hz\. .*2400"):
+    with pytest.raises(LabError, match=r"1000 is not a multiple of the drive frequency, 80 Hz\. .*4800"):
         Setup(protocol.thesis(), steps_per_second=1000)
 
 

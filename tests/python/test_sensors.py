@@ -133,7 +133,7 @@ def test_noise_is_that_of_the_data_sheet_and_seeded():
 
 
 def test_errors_name_value_and_remedy():
-    with pytest.raises(LabError, match=r"2500 Hz is not a multiple.*200.*1/2400"):
+    with pytest.raises(LabError, match=r"2500 Hz is not a multiple.*200.*1/4800"):
         Accelerometer().read(np.zeros(100), 2500.0, np.random.default_rng(1))
     with pytest.raises(LabError, match=r"does not fit below half the data rate"):
         spectral_amplitude(np.zeros(1000), RATE, 98.0)

@@ -13,7 +13,9 @@ use jostle::scene::{Choice, Scene};
 fn main() -> jostle::Result<()> {
     let folder = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| ".".into()));
     let card = Probe::card();
-    let component = Component::of::<Probe>(Choice { disks: card.default_disks })?;
+    let component = Component::of::<Probe>(Choice {
+        disks: card.default_disks,
+    })?;
     let library = bundle::find_library(card.identifier)?;
     for (version, name) in [(Version::Two, "probe-fmi2.fmu"), (Version::Three, "probe-fmi3.fmu")] {
         let out = folder.join(name);

@@ -67,15 +67,23 @@ impl Component {
 /// # Errors
 /// There is none.
 pub fn find_library(identifier: &str) -> Result<PathBuf> {
-    let program = std::env::current_exe()
-        .map_err(|error| Error::call(format!("the running program cannot be found: {error}"), "Name the library."))?;
+    let program = std::env::current_exe().map_err(|error| {
+        Error::call(
+            format!("the running program cannot be found: {error}"),
+            "Name the library.",
+        )
+    })?;
     let name = format!("{DLL_PREFIX}{identifier}{DLL_SUFFIX}");
     // Tests and examples run one folder below.
     let folders = program.ancestors().skip(1).take(2);
     let found = folders.map(|folder| folder.join(&name)).find(|path| path.is_file());
     found.ok_or_else(|| {
         let expected = program.with_file_name(&name);
-        Error::file(&expected, "not found", "Build the FMU libraries: cargo build --release --workspace")
+        Error::file(
+            &expected,
+            "not found",
+            "Build the FMU libraries: cargo build --release --workspace",
+        )
     })
 }
 
@@ -106,11 +114,15 @@ pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Ve
         .compression_method(CompressionMethod::Deflated)
         .last_modified_time(DateTime::default());
     for (path, content) in files(card, *choice, rows, version)? {
-        archive.start_file(path, plain.unix_permissions(0o644)).map_err(|error| failed(&error))?;
+        archive
+            .start_file(path, plain.unix_permissions(0o644))
+            .map_err(|error| failed(&error))?;
         archive.write_all(&content).map_err(|error| failed(&error))?;
     }
     let path = format!("binaries/{}/{}{DLL_SUFFIX}", platform(version), card.identifier);
-    archive.start_file(path, plain.unix_permissions(0o755)).map_err(|error| failed(&error))?;
+    archive
+        .start_file(path, plain.unix_permissions(0o755))
+        .map_err(|error| failed(&error))?;
     archive.write_all(binary).map_err(|error| failed(&error))?;
     Ok(archive.finish().map_err(|error| failed(&error))?.into_inner())
 }
@@ -136,7 +148,10 @@ fn files(card: &Card, choice: Choice, rows: &[Variable], version: Version) -> Re
     match version {
         Version::Two => list.push(("model.png", icon::png()?)),
         Version::Three => {
-            list.push(("terminalsAndIcons/terminalsAndIcons.xml", terminals::write(rows).into_bytes()));
+            list.push((
+                "terminalsAndIcons/terminalsAndIcons.xml",
+                terminals::write(rows).into_bytes(),
+            ));
             list.push(("terminalsAndIcons/icon.png", icon::png()?));
         }
     }

@@ -63,7 +63,11 @@ fn tables(rows: &[Variable]) -> String {
     ];
     let mut text = String::new();
     for (title, causality) in groups {
-        let group: Vec<_> = rows.iter().enumerate().filter(|(_, row)| row.causality == causality).collect();
+        let group: Vec<_> = rows
+            .iter()
+            .enumerate()
+            .filter(|(_, row)| row.causality == causality)
+            .collect();
         if group.is_empty() {
             continue;
         }

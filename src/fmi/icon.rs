@@ -28,7 +28,9 @@ pub fn png() -> Result<Vec<u8>> {
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_depth(png::BitDepth::Eight);
     let mut writer = encoder.write_header().map_err(failed)?;
-    let pixels: Vec<u8> = (0..SIZE * SIZE).flat_map(|index| pixel(index % SIZE, index / SIZE)).collect();
+    let pixels: Vec<u8> = (0..SIZE * SIZE)
+        .flat_map(|index| pixel(index % SIZE, index / SIZE))
+        .collect();
     writer.write_image_data(&pixels).map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(file)
@@ -37,9 +39,8 @@ pub fn png() -> Result<Vec<u8>> {
 fn pixel(column: u32, row: u32) -> [u8; 4] {
     let (mut sum, mut covered) = ([0.0; 3], 0.0);
     for sample in 0..SAMPLES * SAMPLES {
-        let place = |pixel: u32, part: u32| {
-            (f64::from(pixel) + (f64::from(part) + 0.5) / f64::from(SAMPLES)) / f64::from(SIZE)
-        };
+        let place =
+            |pixel: u32, part: u32| (f64::from(pixel) + (f64::from(part) + 0.5) / f64::from(SAMPLES)) / f64::from(SIZE);
         let (x, y) = (place(column, sample % SAMPLES), 1.0 - place(row, sample / SAMPLES));
         if let Some(colour) = colour_at(x, y) {
             covered += 1.0;

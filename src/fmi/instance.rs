@@ -59,7 +59,12 @@ impl<S: Scene> Instance<S> {
     /// The token is not of this scene.
     pub fn new(token: &str, event_mode: bool) -> Result<Self> {
         let (choice, rows) = token::read::<S>(token)?;
-        Ok(Self::start(token.into(), choice, event_mode, Arc::new(Table::new(rows))))
+        Ok(Self::start(
+            token.into(),
+            choice,
+            event_mode,
+            Arc::new(Table::new(rows)),
+        ))
     }
 
     fn start(token: String, choice: Choice, event_mode: bool, table: Arc<Table>) -> Self {
@@ -68,7 +73,11 @@ impl<S: Scene> Instance<S> {
             choice,
             event_mode,
             phase: Phase::Instantiated,
-            clock: Clock { start: 0.0, now: 0.0, stop: None },
+            clock: Clock {
+                start: 0.0,
+                now: 0.0,
+                stop: None,
+            },
             values: Values::new(table),
             scene: None,
             stale: false,
@@ -97,7 +106,12 @@ impl<S: Scene> Instance<S> {
     pub fn set_up(&mut self, start: f64, stop: Option<f64>) -> Result<()> {
         Call::SetupExperiment.check(self.phase)?;
         if !start.is_finite() {
-            return Err(Error::parameter("start time", start, "a finite number of seconds", "Give one."));
+            return Err(Error::parameter(
+                "start time",
+                start,
+                "a finite number of seconds",
+                "Give one.",
+            ));
         }
         if let Some(stop) = stop.filter(|stop| !stop.is_finite() || *stop < start) {
             return Err(Error::parameter(
@@ -107,7 +121,11 @@ impl<S: Scene> Instance<S> {
                 "Give such a time or leave it undefined.",
             ));
         }
-        self.clock = Clock { start, now: start, stop };
+        self.clock = Clock {
+            start,
+            now: start,
+            stop,
+        };
         Ok(())
     }
 
@@ -314,7 +332,10 @@ impl<S: Scene> Instance<S> {
                 TIME_REFERENCE => "value reference 0 is the time, a real that only steps change".into(),
                 _ => format!("value reference {reference} is unknown, there are 0 to {}", rows.len()),
             };
-            return Err(Error::call(what, "Take the value references from modelDescription.xml."));
+            return Err(Error::call(
+                what,
+                "Take the value references from modelDescription.xml.",
+            ));
         };
         if access.fits(&row.kind) {
             return Ok(position);
@@ -409,7 +430,10 @@ impl<S: Scene> Instance<S> {
         if times && complete {
             return Ok(());
         }
-        Err(Error::state("its phase or times are impossible", "Pass a state that saving gave."))
+        Err(Error::state(
+            "its phase or times are impossible",
+            "Pass a state that saving gave.",
+        ))
     }
 
     /// Bit by bit, since a scene may tell 0.0 from -0.0.

@@ -118,7 +118,11 @@ impl Call {
             _ => format!("It is legal in: {}.", expected.join(", ")),
         };
         Err(Error::call(
-            format!("{} is not allowed while the instance is in the phase {}", self.name(), phase.name()),
+            format!(
+                "{} is not allowed while the instance is in the phase {}",
+                self.name(),
+                phase.name()
+            ),
             remedy,
         ))
     }

@@ -42,7 +42,13 @@ pub const TIME_REFERENCE: u32 = 0;
 
 /// Categories of log messages, as declared in the model description: name and description.
 pub const LOG_CATEGORIES: [(&str, &str); 3] = [
-    ("logStatusError", "Calls that were refused, with the reason and the remedy"),
-    ("logStatusDiscard", "Steps that could not be done; the state is the one before the step"),
+    (
+        "logStatusError",
+        "Calls that were refused, with the reason and the remedy",
+    ),
+    (
+        "logStatusDiscard",
+        "Steps that could not be done; the state is the one before the step",
+    ),
     ("logEvents", "Life cycle: instantiated, initialised, terminated, reset"),
 ];

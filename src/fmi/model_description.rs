@@ -115,7 +115,11 @@ fn units(xml: &mut Xml, rows: &[Variable]) -> io::Result<()> {
             let exponents = exponents.map(|(name, exponent)| (name, exponent.to_string())).collect();
             xml::empty(xml, "BaseUnit", &exponents)?;
             display_unit(unit).map_or(Ok(()), |(name, factor)| {
-                xml::empty(xml, "DisplayUnit", &vec![("name", name.into()), ("factor", number(factor))])
+                xml::empty(
+                    xml,
+                    "DisplayUnit",
+                    &vec![("name", name.into()), ("factor", number(factor))],
+                )
             })
         })
     })
@@ -229,7 +233,11 @@ fn details(row: &Variable, version: Version) -> Attributes {
             list.push(("unit", quantity.unit.name().into()));
             list.extend(display_unit(quantity.unit).map(|(name, _)| ("displayUnit", name.into())));
             let ends = [("min", quantity.min), ("max", quantity.max)];
-            list.extend(ends.into_iter().filter(|(_, end)| end.is_finite()).map(|(name, end)| (name, number(end))));
+            list.extend(
+                ends.into_iter()
+                    .filter(|(_, end)| end.is_finite())
+                    .map(|(name, end)| (name, number(end))),
+            );
             list.push(("nominal", number(quantity.nominal)));
             list.extend(given.then(|| ("start", number(quantity.start))));
         }
@@ -248,7 +256,10 @@ fn details(row: &Variable, version: Version) -> Attributes {
 
 /// Positions of the rows that `wanted` accepts.
 fn positions(rows: &[Variable], wanted: impl Fn(Causality) -> bool) -> impl Iterator<Item = usize> {
-    rows.iter().enumerate().filter(move |(_, row)| wanted(row.causality)).map(|(position, _)| position)
+    rows.iter()
+        .enumerate()
+        .filter(move |(_, row)| wanted(row.causality))
+        .map(|(position, _)| position)
 }
 
 fn is_output(causality: Causality) -> bool {
@@ -275,10 +286,13 @@ fn structure_2(xml: &mut Xml, rows: &[Variable]) -> io::Result<()> {
 fn structure_3(xml: &mut Xml, rows: &[Variable]) -> io::Result<()> {
     let reference = |position: usize| ("valueReference", value_reference(position).to_string());
     positions(rows, is_output).try_for_each(|position| {
-        xml::empty(xml, "Output", &vec![reference(position), ("dependencies", String::new())])
+        xml::empty(
+            xml,
+            "Output",
+            &vec![reference(position), ("dependencies", String::new())],
+        )
     })?;
-    positions(rows, is_computed)
-        .try_for_each(|position| xml::empty(xml, "InitialUnknown", &vec![reference(position)]))
+    positions(rows, is_computed).try_for_each(|position| xml::empty(xml, "InitialUnknown", &vec![reference(position)]))
 }
 
 /// Shortest text that reads back as the same bits.

@@ -92,7 +92,11 @@ impl<State: Serialize + DeserializeOwned> Snapshot<State> {
         }
         let (snapshot, rest): (Self, _) =
             postcard::take_from_bytes(payload).map_err(|error| damaged(&error.to_string()))?;
-        if rest.is_empty() { Ok(snapshot) } else { Err(damaged("it is too long")) }
+        if rest.is_empty() {
+            Ok(snapshot)
+        } else {
+            Err(damaged("it is too long"))
+        }
     }
 }
 

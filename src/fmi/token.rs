@@ -30,7 +30,9 @@ pub fn read<S: Scene>(token: &str) -> Result<(Choice, Vec<Variable>)> {
     let shape = || format!("{}N:...", prefix(&card));
     let rest = token.strip_prefix(&prefix(&card)).ok_or_else(|| refused(shape()))?;
     let disks = rest.split(':').next().and_then(|disks| disks.parse().ok());
-    let disks = disks.filter(|disks| card.disks.contains(disks)).ok_or_else(|| refused(shape()))?;
+    let disks = disks
+        .filter(|disks| card.disks.contains(disks))
+        .ok_or_else(|| refused(shape()))?;
     let choice = Choice { disks };
     let rows = S::variables(choice);
     let expected = write(&card, choice, &rows);

@@ -36,6 +36,8 @@ pub fn element(
     content: impl FnOnce(&mut Xml) -> io::Result<()>,
 ) -> io::Result<()> {
     let list = attributes.iter().map(|(key, value)| (*key, value.as_str()));
-    xml.create_element(name).with_attributes(list).write_inner_content(content)?;
+    xml.create_element(name)
+        .with_attributes(list)
+        .write_inner_content(content)?;
     Ok(())
 }

@@ -378,7 +378,12 @@ impl Values {
                 _ if given => row.check(*value)?,
                 (Kind::Real(_), Value::Real(_)) => {}
                 (Kind::Integer { .. } | Kind::Long { .. }, Value::Integer(_)) => {}
-                _ => return Err(Error::state(format!("{} has another type there", row.name), "Save it anew.")),
+                _ => {
+                    return Err(Error::state(
+                        format!("{} has another type there", row.name),
+                        "Save it anew.",
+                    ));
+                }
             }
         }
         Ok(())

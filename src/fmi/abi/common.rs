@@ -56,6 +56,8 @@ pub struct Inner<S: Scene> {
     pub logger: Logger,
     /// How the last step ended, for `fmi2GetStatus`.
     pub last_step: Status,
+    /// Communication point and step size that were refused last.
+    refused: Option<(f64, f64)>,
     version: Version,
     states: HashMap<usize, Saved<S>>,
 }
@@ -74,11 +76,16 @@ pub fn instantiate<S: Scene>(
 ) -> Opaque {
     match catch_unwind(AssertUnwindSafe(make)) {
         Ok(Ok(instance)) => {
-            logger.log(Status::Ok, Category::Events, &format!("{function}: {}", instance.token()));
+            logger.log(
+                Status::Ok,
+                Category::Events,
+                &format!("{function}: {}", instance.token()),
+            );
             let inner = Inner {
                 instance,
                 logger,
                 last_step: Status::Ok,
+                refused: None,
                 version,
                 states: HashMap::new(),
             };
@@ -94,7 +101,11 @@ pub fn instantiate<S: Scene>(
             null_mut()
         }
         Err(panic) => {
-            logger.log(Status::Error, Category::Error, &format!("{function}: {}", describe(&*panic)));
+            logger.log(
+                Status::Error,
+                Category::Error,
+                &format!("{function}: {}", describe(&*panic)),
+            );
             null_mut()
         }
     }
@@ -106,7 +117,9 @@ pub fn instantiate<S: Scene>(
 /// `pointer` is null or an instance of this library that was not freed before.
 pub unsafe fn free<S: Scene>(pointer: Opaque, version: Version) {
     // SAFETY: by the caller's promise.
-    let Some(handle) = (unsafe { handle::<S>(pointer) }) else { return };
+    let Some(handle) = (unsafe { handle::<S>(pointer) }) else {
+        return;
+    };
     if handle.busy.swap(true, Ordering::Acquire) {
         return; // from inside a callback of this very instance: freeing it now would pull it from under the call
     }
@@ -133,13 +146,19 @@ pub unsafe fn enter<S: Scene>(
     work: impl FnOnce(&mut Inner<S>) -> Result<()>,
 ) -> Status {
     // SAFETY: by the caller's promise.
-    let Some(handle) = (unsafe { handle::<S>(pointer) }) else { return Status::Error };
+    let Some(handle) = (unsafe { handle::<S>(pointer) }) else {
+        return Status::Error;
+    };
     if handle.busy.swap(true, Ordering::Acquire) {
         return Status::Error;
     }
     // SAFETY: `busy` was taken, so this is the only reference into the handle until it is given back below.
     let inner = unsafe { &mut *handle.inner.get() };
-    let status = if inner.version == version { inner.run(function, work) } else { Status::Error };
+    let status = if inner.version == version {
+        inner.run(function, work)
+    } else {
+        Status::Error
+    };
     handle.busy.store(false, Ordering::Release);
     status
 }
@@ -167,7 +186,8 @@ impl<S: Scene> Inner<S> {
                 Status::Discard
             }
             Ok(Err(error)) => {
-                self.logger.log(Status::Error, Category::Error, &format!("{function}: {error}"));
+                self.logger
+                    .log(Status::Error, Category::Error, &format!("{function}: {error}"));
                 Status::Error
             }
             Err(panic) => {
@@ -179,16 +199,54 @@ impl<S: Scene> Inner<S> {
         }
     }
 
+    /// Advances in time.
+    ///
+    /// A step that the scene cannot do is discarded, so that the importer may try a shorter one. Asked for the very same
+    /// step again, the answer is an error: there are importers that otherwise repeat a discarded step for ever.
+    ///
+    /// # Errors
+    /// As [`Instance::do_step`], with [`Error::Call`] in the place of a repeated [`Error::Step`].
+    pub fn do_step(&mut self, current: f64, step: f64) -> Result<()> {
+        let done = self.instance.do_step(current, step).map_err(|error| match error {
+            Error::Step {
+                scene,
+                time,
+                what,
+                remedy,
+            } if self.refused == Some((current, step)) => Error::call(
+                format!("{scene}: the same step refused again at t = {time} s: {what}"),
+                remedy,
+            ),
+            other => other,
+        });
+        self.last_step = match &done {
+            Ok(()) => Status::Ok,
+            Err(Error::Step { .. }) => Status::Discard,
+            Err(_) => Status::Error,
+        };
+        match self.last_step {
+            Status::Ok => self.refused = None,
+            Status::Discard => self.refused = Some((current, step)),
+            _ => {}
+        }
+        done
+    }
+
     /// Becomes as a new instance. Saved states stay: the importer frees them.
     pub fn reset(&mut self) {
         self.instance.reset();
         self.last_step = Status::Ok;
+        self.refused = None;
     }
 
     /// Tells a change in the life of the instance.
     pub fn tell(&self, function: &str) {
         let (phase, time) = (self.instance.phase().name(), self.instance.time());
-        self.logger.log(Status::Ok, Category::Events, &format!("{function}: {phase} at t = {time} s"));
+        self.logger.log(
+            Status::Ok,
+            Category::Events,
+            &format!("{function}: {phase} at t = {time} s"),
+        );
     }
 
     /// Saves the state under `previous`, if that is one of ours, or under a new number.
@@ -349,5 +407,8 @@ fn unknown_state() -> Error {
 fn describe(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-    format!("internal defect, please report it: {}", text.unwrap_or("panic without a message"))
+    format!(
+        "internal defect, please report it: {}",
+        text.unwrap_or("panic without a message")
+    )
 }

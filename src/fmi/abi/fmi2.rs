@@ -104,7 +104,10 @@ pub(super) unsafe fn texts(categories: *const *const c_char, count: usize) -> Re
     // SAFETY: by the caller's promise.
     let pointers = unsafe { memory::slice(categories, count, "the array of categories") }?;
     // SAFETY: by the caller's promise.
-    pointers.iter().map(|pointer| unsafe { memory::text(*pointer, "a category") }).collect()
+    pointers
+        .iter()
+        .map(|pointer| unsafe { memory::text(*pointer, "a category") })
+        .collect()
 }
 
 /// `fmi2SetupExperiment`.
@@ -256,17 +259,8 @@ pub unsafe fn derivatives<S: Scene>(pointer: Opaque, function: &str, count: usiz
 /// # Safety
 /// As for [`enter`].
 pub unsafe fn do_step<S: Scene>(pointer: Opaque, current: f64, step: f64) -> Status {
-    let work = |inner: &mut common::Inner<S>| {
-        let done = inner.instance.do_step(current, step);
-        inner.last_step = match &done {
-            Ok(()) => Status::Ok,
-            Err(Error::Step { .. }) => Status::Discard,
-            Err(_) => Status::Error,
-        };
-        done
-    };
     // SAFETY: passed on.
-    unsafe { enter::<S>(pointer, Two, "fmi2DoStep", work) }
+    unsafe { enter::<S>(pointer, Two, "fmi2DoStep", |inner| inner.do_step(current, step)) }
 }
 
 /// `fmi2GetStatus`.

@@ -54,7 +54,12 @@ pub unsafe fn instantiate<S: Scene>(
     let logger = Logger::new(Callback::Three { log, environment }, logging_on != FALSE);
     common::instantiate(Three, "fmi3InstantiateCoSimulation", logger, || {
         // SAFETY: by the caller's promise.
-        let (name, token) = unsafe { (memory::text(name, "instanceName")?, memory::text(token, "instantiationToken")?) };
+        let (name, token) = unsafe {
+            (
+                memory::text(name, "instanceName")?,
+                memory::text(token, "instantiationToken")?,
+            )
+        };
         if name.is_empty() {
             return Err(Error::call("instanceName is empty", "Name the instance."));
         }
@@ -282,7 +287,7 @@ pub unsafe fn do_step<S: Scene>(
                 memory::write(flag, FALSE, name)?;
             }
             memory::write(last_successful_time, inner.instance.time(), "lastSuccessfulTime")?;
-            inner.instance.do_step(current, step)?;
+            inner.do_step(current, step)?;
             memory::write(last_successful_time, inner.instance.time(), "lastSuccessfulTime")
         })
     }

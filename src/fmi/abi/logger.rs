@@ -7,8 +7,7 @@ use crate::error::{Error, Result};
 use crate::fmi::LOG_CATEGORIES;
 
 /// `fmi2CallbackLogger`.
-pub type Fmi2Log =
-    unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char, ...);
+pub type Fmi2Log = unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char, ...);
 /// `fmi3LogMessageCallback`.
 pub type Fmi3Log = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
 
@@ -88,7 +87,11 @@ impl Logger {
         let category = NAMES[category as usize].as_ptr();
         let clean = |message: String| CString::new(message.replace('\0', " ")).unwrap_or_default();
         match &self.callback {
-            Callback::Two { log: Some(log), environment, name } => {
+            Callback::Two {
+                log: Some(log),
+                environment,
+                name,
+            } => {
                 // The message is a printf format by the standard, but not every importer expands it: with its percent
                 // signs doubled and no further argument it is safe in both.
                 let message = clean(message.replace('%', "%%"));
@@ -96,7 +99,10 @@ impl Logger {
                 // format takes no argument.
                 unsafe { log(*environment, name.as_ptr(), status as c_int, category, message.as_ptr()) }
             }
-            Callback::Three { log: Some(log), environment } => {
+            Callback::Three {
+                log: Some(log),
+                environment,
+            } => {
                 let message = clean(message.into());
                 // SAFETY: the importer's own callback with its own environment; the strings outlive the call.
                 unsafe { log(*environment, status as c_int, category, message.as_ptr()) }

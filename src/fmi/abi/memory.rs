@@ -118,5 +118,8 @@ fn check<T>(pointer: *const T, count: usize, name: &str) -> Result<()> {
     } else {
         return Ok(());
     };
-    Err(Error::call(format!("{name} {fault}"), "Pass an array of the length that is given with it."))
+    Err(Error::call(
+        format!("{name} {fault}"),
+        "Pass an array of the length that is given with it.",
+    ))
 }

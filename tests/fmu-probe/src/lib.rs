@@ -53,15 +53,50 @@ impl Scene for Probe {
 
     fn variables(choice: Choice) -> Vec<Variable> {
         let mut rows = vec![
-            Variable::parameter("spring.stiffness", Unit::NewtonPerMetre, 1.0..=1e6, 100.0, "Stiffness of all springs."),
-            Variable::parameter("disk.mass", Unit::Kilogram, 1e-3..=10.0, 0.1, "Mass of the first disk, \"m\" < 10."),
-            Variable::parameter("damper.damping", Unit::KilogramPerSecond, 0.0..=100.0, 0.2, "Damping of all springs."),
+            Variable::parameter(
+                "spring.stiffness",
+                Unit::NewtonPerMetre,
+                1.0..=1e6,
+                100.0,
+                "Stiffness of all springs.",
+            ),
+            Variable::parameter(
+                "disk.mass",
+                Unit::Kilogram,
+                1e-3..=10.0,
+                0.1,
+                "Mass of the first disk, \"m\" < 10.",
+            ),
+            Variable::parameter(
+                "damper.damping",
+                Unit::KilogramPerSecond,
+                0.0..=100.0,
+                0.2,
+                "Damping of all springs.",
+            ),
             Variable::long_parameter("seed", 0..=i64::MAX, 42, "Seed of the starting velocities."),
-            Variable::parameter("fault.panic_time", Unit::Second, 0.0..=1e9, 1e9, "Panics when time passes this."),
-            Variable::parameter("fault.refuse_time", Unit::Second, 0.0..=1e9, 1e9, "Refuses steps beyond this."),
+            Variable::parameter(
+                "fault.panic_time",
+                Unit::Second,
+                0.0..=1e9,
+                1e9,
+                "Panics when time passes this.",
+            ),
+            Variable::parameter(
+                "fault.refuse_time",
+                Unit::Second,
+                0.0..=1e9,
+                1e9,
+                "Refuses steps beyond this.",
+            ),
             Variable::input("base.displacement", Unit::Metre, 1e-3, "Height of the base."),
             Variable::input("base.velocity", Unit::MetrePerSecond, 0.1, "Velocity of the base."),
-            Variable::calculated("natural.angle_rate", Unit::RadianPerSecond, 10.0, "Natural angular frequency."),
+            Variable::calculated(
+                "natural.angle_rate",
+                Unit::RadianPerSecond,
+                10.0,
+                "Natural angular frequency.",
+            ),
             Variable::output("base.reaction_force", Unit::Newton, 1.0, "Force on the base."),
             Variable::count_output("steps", "Internal steps since the start."),
         ];
@@ -134,9 +169,13 @@ impl Scene for Probe {
     }
 
     fn restore(&mut self, state: &State) -> Result<()> {
-        if state.displacements.len() != self.state.displacements.len() || state.velocities.len() != state.displacements.len()
+        if state.displacements.len() != self.state.displacements.len()
+            || state.velocities.len() != state.displacements.len()
         {
-            return Err(Error::state("it has another number of disks", "Restore it with the FMU that wrote it."));
+            return Err(Error::state(
+                "it has another number of disks",
+                "Restore it with the FMU that wrote it.",
+            ));
         }
         self.state.clone_from(state);
         Ok(())
@@ -161,6 +200,8 @@ impl Probe {
 
 /// Uniform in [-1, 1): a linear congruential generator is enough to notice a state that was not restored.
 fn draw(random: &mut u64) -> f64 {
-    *random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    *random = random
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
     (*random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }

@@ -56,6 +56,8 @@ pub struct Inner<S: Scene> {
     pub logger: Logger,
     /// How the last step ended, for `fmi2GetStatus`.
     pub last_step: Status,
+    /// Communication point and step size that were refused last.
+    refused: Option<(f64, f64)>,
     version: Version,
     states: HashMap<usize, Saved<S>>,
 }
@@ -83,6 +85,7 @@ pub fn instantiate<S: Scene>(
                 instance,
                 logger,
                 last_step: Status::Ok,
+                refused: None,
                 version,
                 states: HashMap::new(),
             };
@@ -196,10 +199,44 @@ impl<S: Scene> Inner<S> {
         }
     }
 
+    /// Advances in time.
+    ///
+    /// A step that the scene cannot do is discarded, so that the importer may try a shorter one. Asked for the very same
+    /// step again, the answer is an error: there are importers that otherwise repeat a discarded step for ever.
+    ///
+    /// # Errors
+    /// As [`Instance::do_step`], with [`Error::Call`] in the place of a repeated [`Error::Step`].
+    pub fn do_step(&mut self, current: f64, step: f64) -> Result<()> {
+        let done = self.instance.do_step(current, step).map_err(|error| match error {
+            Error::Step {
+                scene,
+                time,
+                what,
+                remedy,
+            } if self.refused == Some((current, step)) => Error::call(
+                format!("{scene}: the same step refused again at t = {time} s: {what}"),
+                remedy,
+            ),
+            other => other,
+        });
+        self.last_step = match &done {
+            Ok(()) => Status::Ok,
+            Err(Error::Step { .. }) => Status::Discard,
+            Err(_) => Status::Error,
+        };
+        match self.last_step {
+            Status::Ok => self.refused = None,
+            Status::Discard => self.refused = Some((current, step)),
+            _ => {}
+        }
+        done
+    }
+
     /// Becomes as a new instance. Saved states stay: the importer frees them.
     pub fn reset(&mut self) {
         self.instance.reset();
         self.last_step = Status::Ok;
+        self.refused = None;
     }
 
     /// Tells a change in the life of the instance.

@@ -259,17 +259,8 @@ pub unsafe fn derivatives<S: Scene>(pointer: Opaque, function: &str, count: usiz
 /// # Safety
 /// As for [`enter`].
 pub unsafe fn do_step<S: Scene>(pointer: Opaque, current: f64, step: f64) -> Status {
-    let work = |inner: &mut common::Inner<S>| {
-        let done = inner.instance.do_step(current, step);
-        inner.last_step = match &done {
-            Ok(()) => Status::Ok,
-            Err(Error::Step { .. }) => Status::Discard,
-            Err(_) => Status::Error,
-        };
-        done
-    };
     // SAFETY: passed on.
-    unsafe { enter::<S>(pointer, Two, "fmi2DoStep", work) }
+    unsafe { enter::<S>(pointer, Two, "fmi2DoStep", |inner| inner.do_step(current, step)) }
 }
 
 /// `fmi2GetStatus`.

@@ -287,7 +287,7 @@ pub unsafe fn do_step<S: Scene>(
                 memory::write(flag, FALSE, name)?;
             }
             memory::write(last_successful_time, inner.instance.time(), "lastSuccessfulTime")?;
-            inner.instance.do_step(current, step)?;
+            inner.do_step(current, step)?;
             memory::write(last_successful_time, inner.instance.time(), "lastSuccessfulTime")
         })
     }

@@ -1,0 +1,248 @@
+//! Call order, communication points, discarded steps, reset.
+
+use std::ffi::CString;
+
+use fmu_probe::fmi2::*;
+use fmu_probe::fmi3::*;
+use jostle::fmi::abi::common::Status::{Discard, Error, Ok};
+
+use crate::client::{Client, reference};
+
+fn both() -> [Client; 2] {
+    [Client::two(), Client::three()]
+}
+
+#[test]
+fn versions_give_the_same_bits() {
+    let [two, three] = both().map(|client| client.ready(&[("disk.mass", 0.3)]));
+    assert_eq!(two.run((0, 50), 0.01), three.run((0, 50), 0.01));
+}
+
+#[test]
+fn one_long_step_equals_two_short_ones() {
+    let [long, short] = [Client::three(), Client::three()].map(|client| client.ready(&[]));
+    for index in 0..20 {
+        let time = f64::from(index) * 0.02;
+        assert_eq!(long.step(time, 0.02), Ok);
+        assert_eq!(short.step(time, 0.01), Ok);
+        assert_eq!(short.step(time + 0.01, 0.01), Ok);
+        assert_eq!(long.outputs(), short.outputs());
+    }
+}
+
+#[test]
+fn calls_out_of_order_are_refused_and_change_nothing() {
+    for client in both() {
+        assert_eq!(client.step(0.0, 0.01), Error);
+        assert!(client.last_message().contains("step mode"), "{}", client.last_message());
+        assert_eq!(client.exit(), Error);
+        assert_eq!(client.get("base.reaction_force").0, Error, "not computed yet");
+        assert_eq!(client.get("disk.mass"), (Ok, 0.1));
+        assert_eq!(client.enter(), Ok);
+        assert_eq!(
+            client.set("disk.mass", 0.2),
+            Ok,
+            "parameters may be set until initialisation ends"
+        );
+        assert_eq!(client.get("natural.angle_rate"), (Ok, (100.0_f64 / 0.2).sqrt()));
+        assert_eq!(client.set("disk.mass", 0.1), Ok);
+        assert_eq!(
+            client.get("natural.angle_rate"),
+            (Ok, (100.0_f64 / 0.1).sqrt()),
+            "it follows the parameter"
+        );
+        assert_eq!(client.exit(), Ok);
+        assert_eq!(client.exit(), Error);
+        assert_eq!(client.set("disk.mass", 0.2), Error);
+        assert!(client.last_message().contains("frozen"), "{}", client.last_message());
+        assert_eq!(client.set("base.reaction_force", 0.2), Error);
+        assert_eq!(client.set("base.displacement", f64::NAN), Error);
+        assert_eq!(client.get("base.displacement"), (Ok, 0.0));
+        let twin = Client::three().ready(&[]);
+        assert_eq!(client.run((0, 10), 0.01), twin.run((0, 10), 0.01));
+    }
+}
+
+#[test]
+fn terminated_instances_are_read_only() {
+    let client = Client::three().ready(&[]);
+    client.run((0, 3), 0.01);
+    let before = client.outputs();
+    assert_eq!(unsafe { fmi3Terminate(client.pointer) }, Ok);
+    assert_eq!(client.outputs(), before);
+    assert_eq!(client.set("base.displacement", 0.0), Error);
+    assert_eq!(client.step(0.03, 0.01), Error);
+    assert_eq!(client.reset(), Ok);
+    assert_eq!(client.enter(), Ok);
+}
+
+#[test]
+fn communication_points_tolerate_rounding_and_nothing_more() {
+    let client = Client::three().ready(&[]);
+    let mut summed = 0.0;
+    for index in 0..1000 {
+        let exact = f64::from(index) * 0.1;
+        let point = if index % 2 == 0 { summed } else { exact };
+        assert_eq!(client.step(point, 0.1), Ok, "{}", client.last_message());
+        summed += 0.1;
+    }
+    for (point, step) in [(0.0, 0.1), (100.05, 0.1), (f64::NAN, 0.1), (f64::INFINITY, 0.1)] {
+        assert_eq!(client.step(point, step), Error, "{point}");
+    }
+    for step in [0.0, -0.1, f64::NAN, f64::INFINITY, 1e-300] {
+        assert_eq!(client.step(100.0, step), Error, "{step}");
+        assert!(client.last_message().contains("step size"), "{}", client.last_message());
+    }
+    assert_eq!(client.step(100.0, 0.1), Ok, "{}", client.last_message());
+}
+
+#[test]
+fn the_stop_time_is_kept() {
+    let client = Client::three();
+    assert_eq!(
+        unsafe { fmi3EnterInitializationMode(client.pointer, 0, 0.0, 1.0, 1, 1.05) },
+        Ok
+    );
+    assert_eq!(client.exit(), Ok);
+    assert_eq!(client.step(1.0, 0.05), Ok);
+    assert_eq!(client.step(1.05, 0.05), Error);
+    assert!(client.last_message().contains("stop time"));
+}
+
+#[test]
+fn a_discarded_step_keeps_the_state_and_may_be_tried_shorter() {
+    for client in both() {
+        let client = client.ready(&[("fault.refuse_time", 0.055)]);
+        client.run((0, 5), 0.01);
+        let before = client.outputs();
+        assert_eq!(client.step(0.05, 0.01), Discard);
+        assert!(client.last_message().contains("100"), "{}", client.last_message());
+        assert_eq!(client.outputs(), before);
+        if !client.three {
+            let (mut time, mut status, mut terminated) = (0.0, Ok, 7);
+            assert_eq!(unsafe { fmi2GetRealStatus(client.pointer, 2, &mut time) }, Ok);
+            assert_eq!(unsafe { fmi2GetStatus(client.pointer, 0, &mut status) }, Ok);
+            assert_eq!(unsafe { fmi2GetBooleanStatus(client.pointer, 3, &mut terminated) }, Ok);
+            assert_eq!((time, status, terminated), (0.05, Discard, 0));
+        }
+        assert_eq!(client.step(0.05, 0.01), Error, "the very same step again");
+        assert_eq!(client.step(0.05, 0.005), Ok, "{}", client.last_message());
+        assert_eq!(client.step(0.055, 0.005), Discard);
+    }
+}
+
+#[test]
+fn reset_equals_a_new_instance() {
+    for client in both() {
+        let client = client.ready(&[("disk.mass", 0.5)]);
+        client.run((0, 20), 0.01);
+        assert_eq!(client.reset(), Ok);
+        assert_eq!(client.get("disk.mass"), (Ok, 0.1));
+        let client = client.ready(&[]);
+        let new = Client::three().ready(&[]);
+        assert_eq!(client.run((0, 20), 0.01), new.run((0, 20), 0.01));
+    }
+}
+
+#[test]
+fn parameters_refused_at_initialisation_may_be_mended() {
+    let client = Client::three();
+    assert_eq!(client.set("damper.damping", 99.0), Ok);
+    assert_eq!(client.set("disk.mass", 1e-3), Ok);
+    assert_eq!(client.set("disk.mass", 1e3), Error);
+    assert!(client.last_message().contains("10"), "{}", client.last_message());
+    assert_eq!(client.enter(), Ok);
+    assert_eq!(client.exit(), Error);
+    assert!(
+        client.last_message().contains("damper.damping"),
+        "{}",
+        client.last_message()
+    );
+    assert_eq!(client.set("disk.mass", 1.0), Ok);
+    assert_eq!(client.exit(), Ok);
+}
+
+#[test]
+fn event_mode_is_there_when_asked_for() {
+    let client = Client::three_with(&crate::client::token(), true).ready(&[]);
+    assert_eq!(client.step(0.0, 0.01), Error, "in event mode");
+    let (mut flags, mut time) = ([7_u8; 5], f64::NAN);
+    let [a, b, c, d, e] = &mut flags;
+    assert_eq!(
+        unsafe { fmi3UpdateDiscreteStates(client.pointer, a, b, c, d, e, &mut time) },
+        Ok
+    );
+    assert_eq!(flags, [0; 5]);
+    assert_eq!(unsafe { fmi3EnterStepMode(client.pointer) }, Ok);
+    client.run((0, 3), 0.01);
+    assert_eq!(unsafe { fmi3EnterEventMode(client.pointer) }, Ok);
+    assert_eq!(client.set("base.displacement", 0.01), Ok);
+    assert_eq!(unsafe { fmi3EnterStepMode(client.pointer) }, Ok);
+    let plain = Client::three().ready(&[]);
+    assert_eq!(unsafe { fmi3EnterEventMode(plain.pointer) }, Error);
+}
+
+#[test]
+fn a_foreign_token_is_told() {
+    for token in [
+        "",
+        "nonsense",
+        "jostle:probe:oscillators:input:disks=3:0000000000000000",
+        "jostle:probe:oscillators:input:disks=9999:1",
+    ] {
+        let client = Client::three_with(&CString::new(token).unwrap(), false);
+        assert!(client.pointer.is_null());
+        let message = client.last_message();
+        assert!(message.contains(token) && message.contains("same FMU"), "{message}");
+    }
+}
+
+#[test]
+fn log_categories_are_respected() {
+    let client = Client::three();
+    assert!(client.log.borrow().is_empty(), "events are off: {:?}", client.log);
+    let name = c"logEvents".as_ptr();
+    assert_eq!(unsafe { fmi3SetDebugLogging(client.pointer, 1, 1, &name) }, Ok);
+    assert_eq!(client.enter(), Ok);
+    let told: (i32, String, String) = client.log.borrow_mut().pop().unwrap();
+    assert_eq!((told.0, told.1.as_str()), (Ok as i32, "logEvents"));
+    let unknown = c"logEverything".as_ptr();
+    assert_eq!(unsafe { fmi3SetDebugLogging(client.pointer, 1, 1, &unknown) }, Error);
+    assert!(client.last_message().contains("logStatusDiscard"));
+    assert_eq!(
+        unsafe { fmi3SetDebugLogging(client.pointer, 0, 0, std::ptr::null()) },
+        Ok
+    );
+    client.log.borrow_mut().clear();
+    assert_eq!(client.step(0.0, 0.1), Error);
+    assert!(client.log.borrow().is_empty());
+}
+
+#[test]
+fn seeds_are_64_bits_in_three_and_32_in_two() {
+    let [two, three] = both();
+    let (seed, mut read) = (1_i64 << 40, 0_i64);
+    assert_eq!(
+        unsafe { fmi3SetInt64(three.pointer, &reference("seed"), 1, &seed, 1) },
+        Ok
+    );
+    assert_eq!(
+        unsafe { fmi3GetInt64(three.pointer, &reference("seed"), 1, &mut read, 1) },
+        Ok
+    );
+    assert_eq!(read, seed);
+    let (small, mut read) = (7, 0);
+    assert_eq!(
+        unsafe { fmi2SetInteger(two.pointer, &reference("seed"), 1, &small) },
+        Ok
+    );
+    assert_eq!(
+        unsafe { fmi2GetInteger(two.pointer, &reference("seed"), 1, &mut read) },
+        Ok
+    );
+    assert_eq!(read, small);
+    assert_eq!(
+        unsafe { fmi2SetInteger(two.pointer, &reference("seed"), 1, &-1) },
+        Error
+    );
+}

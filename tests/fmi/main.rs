@@ -1,0 +1,9 @@
+//! The FMI boundary through its exported C functions, with the probe scene behind it.
+#![allow(unsafe_code, clippy::undocumented_unsafe_blocks, clippy::unwrap_used)]
+
+mod abuse;
+mod bundle;
+mod client;
+mod life_cycle;
+mod many;
+mod states;

@@ -1,9 +1,9 @@
 //! Which call is legal in which phase: the state tables of both standards in one place.
 //!
 //! FMI 2.0 section 4.2.4 and FMI 3.0 sections 2.3 and 4.2. More lenient than the standards in three points, since
-//! nothing can go wrong there: parameters and inputs may be read in the phase `instantiated`, FMI 2.0's
-//! `fmi2SetupExperiment` may be left out (time then starts at 0), and a discarded step may be tried again without
-//! restoring a state first, since the state is the one before the step anyway.
+//! nothing can go wrong there. A refused call leaves the instance in its phase, with nothing changed, where the standards
+//! let the importer only read, reset or free. FMI 2.0's `fmi2SetupExperiment` may be left out; time then starts at 0. A
+//! discarded step may be tried again without restoring a state first, since the state is the one before the step anyway.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ pub enum Phase {
     Instantiated,
     /// Between entering and leaving initialisation.
     Initialization,
-    /// FMI 3.0 event mode. No scene has events as yet: nothing happens in it.
+    /// FMI 3.0 event mode, for scenes that have events.
     Event,
     /// Ready for a step.
     Step,

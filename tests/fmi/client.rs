@@ -81,7 +81,16 @@ impl Client {
         Self::three_with(&token(), false)
     }
 
+    /// With logging on for errors.
     pub fn three_with(token: &CStr, event_mode: bool) -> Self {
+        let client = Self::silent(token, event_mode);
+        let categories = [c"logStatusError".as_ptr(), c"logStatusDiscard".as_ptr()];
+        unsafe { fmi3SetDebugLogging(client.pointer, 1, 2, categories.as_ptr()) };
+        client
+    }
+
+    /// As instantiated without logging.
+    pub fn silent(token: &CStr, event_mode: bool) -> Self {
         let log = Box::new(Log::default());
         let environment = std::ptr::from_ref(&*log).cast_mut().cast();
         let pointer = unsafe {

@@ -6,7 +6,9 @@ use fmu_probe::fmi2::*;
 use fmu_probe::fmi3::*;
 use jostle::fmi::abi::common::Status::{Discard, Error, Ok};
 
-use crate::client::{Client, reference};
+use jostle::fmi::Instance;
+
+use crate::client::{Client, reference, token};
 
 fn both() -> [Client; 2] {
     [Client::two(), Client::three()]
@@ -163,23 +165,21 @@ fn parameters_refused_at_initialisation_may_be_mended() {
 }
 
 #[test]
-fn event_mode_is_there_when_asked_for() {
-    let client = Client::three_with(&crate::client::token(), true).ready(&[]);
-    assert_eq!(client.step(0.0, 0.01), Error, "in event mode");
-    let (mut flags, mut time) = ([7_u8; 5], f64::NAN);
-    let [a, b, c, d, e] = &mut flags;
-    assert_eq!(
-        unsafe { fmi3UpdateDiscreteStates(client.pointer, a, b, c, d, e, &mut time) },
-        Ok
-    );
-    assert_eq!(flags, [0; 5]);
-    assert_eq!(unsafe { fmi3EnterStepMode(client.pointer) }, Ok);
-    client.run((0, 3), 0.01);
-    assert_eq!(unsafe { fmi3EnterEventMode(client.pointer) }, Ok);
-    assert_eq!(client.set("base.displacement", 0.01), Ok);
-    assert_eq!(unsafe { fmi3EnterStepMode(client.pointer) }, Ok);
+fn event_mode_is_refused_over_the_interface_and_ready_behind_it() {
+    let client = Client::three_with(&token(), true);
+    assert!(client.pointer.is_null() && client.last_message().contains("hasEventMode"));
     let plain = Client::three().ready(&[]);
     assert_eq!(unsafe { fmi3EnterEventMode(plain.pointer) }, Error);
+
+    let mut instance = Instance::<fmu_probe::Probe>::new(token().to_str().unwrap(), true).unwrap();
+    instance.enter_initialization().unwrap();
+    instance.exit_initialization().unwrap();
+    assert!(instance.do_step(0.0, 0.01).is_err(), "in event mode");
+    instance.update_discrete_states().unwrap();
+    instance.enter_step_mode().unwrap();
+    instance.do_step(0.0, 0.01).unwrap();
+    instance.enter_event_mode().unwrap();
+    instance.enter_step_mode().unwrap();
 }
 
 #[test]
@@ -199,8 +199,22 @@ fn a_foreign_token_is_told() {
 
 #[test]
 fn log_categories_are_respected() {
-    let client = Client::three();
-    assert!(client.log.borrow().is_empty(), "events are off: {:?}", client.log);
+    let client = Client::silent(&token(), false);
+    assert_eq!(client.step(0.0, 0.1), Error);
+    assert!(
+        client.log.borrow().is_empty(),
+        "FMI 3.0 without logging tells nothing: {:?}",
+        client.log
+    );
+    let two = Client::two();
+    assert_eq!(two.step(0.0, 0.1), Error);
+    assert_eq!(two.log.borrow().len(), 1, "FMI 2.0 tells errors in any case");
+    assert_eq!(
+        unsafe { fmi3SetDebugLogging(client.pointer, 1, 0, std::ptr::null()) },
+        Ok
+    );
+    assert_eq!(client.step(0.0, 0.1), Error);
+    assert!(client.last_message().contains("step mode"));
     let name = c"logEvents".as_ptr();
     assert_eq!(unsafe { fmi3SetDebugLogging(client.pointer, 1, 1, &name) }, Ok);
     assert_eq!(client.enter(), Ok);
@@ -208,7 +222,7 @@ fn log_categories_are_respected() {
     assert_eq!((told.0, told.1.as_str()), (Ok as i32, "logEvents"));
     let unknown = c"logEverything".as_ptr();
     assert_eq!(unsafe { fmi3SetDebugLogging(client.pointer, 1, 1, &unknown) }, Error);
-    assert!(client.last_message().contains("logStatusDiscard"));
+    assert_eq!(client.log.borrow().len(), 1, "errors are off now");
     assert_eq!(
         unsafe { fmi3SetDebugLogging(client.pointer, 0, 0, std::ptr::null()) },
         Ok

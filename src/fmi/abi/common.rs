@@ -71,7 +71,7 @@ struct Saved<S: Scene> {
 pub fn instantiate<S: Scene>(
     version: Version,
     function: &str,
-    logger: Logger,
+    mut logger: Logger,
     make: impl FnOnce() -> Result<Instance<S>>,
 ) -> Opaque {
     match catch_unwind(AssertUnwindSafe(make)) {
@@ -97,15 +97,11 @@ pub fn instantiate<S: Scene>(
             Box::into_raw(Box::new(handle)).cast()
         }
         Ok(Err(error)) => {
-            logger.log(Status::Error, Category::Error, &format!("{function}: {error}"));
+            logger.refuse(&format!("{function}: {error}"));
             null_mut()
         }
         Err(panic) => {
-            logger.log(
-                Status::Error,
-                Category::Error,
-                &format!("{function}: {}", describe(&*panic)),
-            );
+            logger.refuse(&format!("{function}: {}", describe(&*panic)));
             null_mut()
         }
     }

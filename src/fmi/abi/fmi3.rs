@@ -69,7 +69,13 @@ pub unsafe fn instantiate<S: Scene>(
                 "Pass nRequiredIntermediateVariables = 0.",
             ));
         }
-        Instance::<S>::new(&token, event_mode_used != FALSE)
+        if event_mode_used != FALSE {
+            return Err(Error::call(
+                "event mode is not offered (hasEventMode = false)",
+                "Pass eventModeUsed = false.",
+            ));
+        }
+        Instance::<S>::new(&token, false)
     })
 }
 

@@ -49,14 +49,22 @@ pub struct Logger {
 }
 
 impl Logger {
-    /// Errors and discarded steps are always told until the importer switches them off, the rest with `logging_on`.
+    /// What `logging_on` means differs. FMI 3.0: without it nothing is told. FMI 2.0: it is about debugging only, so that
+    /// errors and discarded steps are told in any case.
     pub fn new(callback: Callback, logging_on: bool) -> Self {
-        let mut on = [true; LOG_CATEGORIES.len()];
+        let errors = logging_on || matches!(callback, Callback::Two { .. });
+        let mut on = [errors; LOG_CATEGORIES.len()];
         on[Category::Events as usize] = logging_on;
         Self { callback, on }
     }
 
-    /// Switches the named categories, or all if none is named.
+    /// Tells why no instance was made, whatever is switched on: both standards ask for it.
+    pub fn refuse(&mut self, message: &str) {
+        self.on[Category::Error as usize] = true;
+        self.log(Status::Error, Category::Error, message);
+    }
+
+    /// Leaves the named categories on and no other; all if none is named. Switches all off if not `on`.
     ///
     /// # Errors
     /// A category that the model description does not declare; nothing is switched then.
@@ -72,9 +80,7 @@ impl Logger {
             };
             chosen[index] = true;
         }
-        for (state, _) in self.on.iter_mut().zip(chosen).filter(|(_, chosen)| *chosen) {
-            *state = on;
-        }
+        self.on = chosen.map(|chosen| chosen && on);
         Ok(())
     }
 
@@ -85,7 +91,10 @@ impl Logger {
             return;
         }
         let category = NAMES[category as usize].as_ptr();
-        let clean = |message: String| CString::new(message.replace('\0', " ")).unwrap_or_default();
+        let clean = |message: String| {
+            // A number sign would start a reference to a variable.
+            CString::new(message.replace('\0', " ").replace('#', "##")).unwrap_or_default()
+        };
         match &self.callback {
             Callback::Two {
                 log: Some(log),

@@ -3,6 +3,7 @@
 //! SI units throughout; x to the right, y up, angles and angular velocities counter-clockwise.
 //! Imports point one way: `fmi, main -> scene -> measure -> engine -> contact, drive -> geometry`.
 
+pub mod collision;
 pub mod contact;
 pub mod drive;
 pub mod engine;

@@ -1,3 +1,4 @@
 //! What advances time.
 
+pub mod event_driven;
 pub mod molecular_dynamics;

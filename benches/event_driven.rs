@@ -1,0 +1,82 @@
+//! Speed of the event-driven engine on smooth elastic disks without gravity: `cargo bench --bench event_driven`.
+//!
+//! Equal disks of radius 1/2 in a periodic cell, packing fraction 0.6, from a triangular lattice with random velocities:
+//! the classic benchmark of event-driven codes. Prints CPU nanoseconds per collision.
+
+use std::f64::consts::PI;
+use std::time::Instant;
+
+use jostle::collision::Smooth;
+use jostle::engine::event_driven::{EventDriven, Periodic, Settings, Unbounded, Weightless};
+use jostle::geometry::Disk;
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+
+/// Two normal deviates by Box and Muller.
+fn normal_pair(random: &mut Pcg64) -> [f64; 2] {
+    let mut uniform = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+    let (radius, angle) = ((-2.0 * (1.0 - uniform()).ln()).sqrt(), 2.0 * PI * uniform());
+    [radius * angle.cos(), radius * angle.sin()]
+}
+
+fn lattice(count: usize, packing_fraction: f64) -> (Vec<Disk>, [f64; 2]) {
+    let mut across = ((count as f64).sqrt() + 0.5) as usize;
+    across += across % 2;
+    let lines = count / across;
+    let spacing = (PI / 4.0 / packing_fraction * 2.0 / 3.0_f64.sqrt()).sqrt();
+    let rise = spacing * 3.0_f64.sqrt() / 2.0;
+    let disk = |index: usize| {
+        let (line, place) = (index / across, index % across);
+        let x = (place as f64 + 0.5 * (line % 2) as f64 + 0.25) * spacing;
+        Disk { x, y: (line as f64 + 0.5) * rise, radius: 0.5 }
+    };
+    ((0..across * lines).map(disk).collect(), [across as f64 * spacing, lines as f64 * rise])
+}
+
+fn main() {
+    let arguments: Vec<f64> = std::env::args().skip(1).filter_map(|argument| argument.parse().ok()).collect();
+    let sizes = [60, 1000, 10_000, 100_000];
+    let shell = arguments.first().copied().unwrap_or(1.5);
+    for count in sizes {
+        let (disks, size) = lattice(count, 0.6);
+        let mut random = Pcg64::seed_from_u64(1);
+        let mut velocities: Vec<[f64; 3]> = disks
+            .iter()
+            .map(|_| {
+                let [x, y] = normal_pair(&mut random);
+                [x, y, 0.0]
+            })
+            .collect();
+        let number = disks.len() as f64;
+        let mean = [0, 1].map(|axis| velocities.iter().map(|velocity| velocity[axis]).sum::<f64>() / number);
+        velocities.iter_mut().for_each(|velocity| (0..2).for_each(|axis| velocity[axis] -= mean[axis]));
+        let energy: f64 = velocities.iter().map(|velocity| velocity[0].powi(2) + velocity[1].powi(2)).sum();
+        let scale = (2.0 * number / energy).sqrt();
+        velocities.iter_mut().for_each(|velocity| (0..2).for_each(|axis| velocity[axis] *= scale));
+
+        let law = Smooth::new(1.0).expect("elastic");
+        let settings = Settings { shell, ..Settings::default() };
+        let types = (law, Unbounded, Weightless, Periodic { size });
+        let mut engine = EventDriven::new(types, &disks, &vec![1.0; disks.len()], &velocities, settings);
+        // 6.15 collisions per disk and unit of time.
+        let mut end = 20.0 / 6.15;
+        engine.advance_to(end).expect("headway");
+        let before = engine.state().counts;
+        let start = Instant::now();
+        end += 2e6 / number / 6.15;
+        engine.advance_to(end).expect("headway");
+        let seconds = start.elapsed().as_secs_f64();
+        let after = engine.state().counts;
+        let collisions = (after.disk_impacts - before.disk_impacts) as f64;
+        let per = |count: u64| count as f64 / collisions;
+        let bodies = &engine.state().bodies;
+        let energy: f64 = bodies.iter().map(|body| body.vx * body.vx + body.vy * body.vy).sum::<f64>() / number / 2.0;
+        println!(
+            "{:6} disks: {:6.1} ns a collision; {:.3} listings, {:.3} stale a collision; {collisions} collisions, energy {energy:.12}",
+            disks.len(),
+            seconds / collisions * 1e9,
+            per(after.listings - before.listings),
+            per(after.stale - before.stale),
+        );
+    }
+}

@@ -1,0 +1,66 @@
+//! What bounds the disks of an event-driven run: walls at rest and a base that moves. Types, so that a scene without
+//! walls predicts none.
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::Body;
+
+/// A wall as a disk meets it: its normal into the free half plane and its own velocity \[m/s\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meeting {
+    /// Unit normal.
+    pub normal: [f64; 2],
+    /// Velocity of the wall at the instant of contact \[m/s\].
+    pub velocity: [f64; 2],
+}
+
+/// Walls of a run. Part of the state: a base that follows inputs or draws random phases changes with time.
+pub trait Boundary: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static {
+    /// Whether there is any wall.
+    const EXISTS: bool;
+
+    /// Bits of the walls that a disk may meet whose centre stays within a distance \[m\] of `place`, its radius and slack
+    /// together.
+    fn within_reach(&self, place: [f64; 2], distance: f64) -> u32;
+
+    /// Delay \[s\] and index of the first wall among `walls` that the disk meets within `horizon` \[s\]; an infinite delay
+    /// if there is none. `now` is the local time \[s\] of the disk's place, `gravity` \[m/s2\] pulls down.
+    fn first_hit(&self, walls: u32, body: &Body, now: f64, gravity: f64, horizon: f64) -> (f64, u32);
+
+    /// The wall at the instant `now` \[s\] of contact with a disk of this velocity \[m/s\]. `leaves` tells whether an
+    /// impact with a normal velocity of the wall would send the disk back.
+    fn meet(&mut self, wall: u32, velocity: [f64; 2], now: f64, leaves: impl Fn(f64) -> bool) -> Meeting;
+
+    /// Wall `wall` belongs to the vibrating base.
+    fn is_base(&self, wall: u32) -> bool;
+
+    /// The origin of local time moves on by `seconds`.
+    fn shift(&mut self, seconds: f64);
+}
+
+/// No walls: a periodic cell.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, serde::Deserialize)]
+pub struct Unbounded;
+
+impl Boundary for Unbounded {
+    const EXISTS: bool = false;
+
+    fn within_reach(&self, _place: [f64; 2], _distance: f64) -> u32 {
+        0
+    }
+
+    fn first_hit(&self, _walls: u32, _body: &Body, _now: f64, _gravity: f64, _horizon: f64) -> (f64, u32) {
+        (f64::INFINITY, 0)
+    }
+
+    fn meet(&mut self, _wall: u32, _velocity: [f64; 2], _now: f64, _leaves: impl Fn(f64) -> bool) -> Meeting {
+        Meeting { normal: [0.0, 1.0], velocity: [0.0, 0.0] }
+    }
+
+    fn is_base(&self, _wall: u32) -> bool {
+        false
+    }
+
+    fn shift(&mut self, _seconds: f64) {}
+}

@@ -1,0 +1,192 @@
+//! Calendar of events: one time per disk, the earliest first, ties by index.
+//!
+//! Events are never searched for to be taken out: an entry whose time is no longer its disk's next time is stale and is
+//! passed over when it comes up. Buckets of equal width hold what is near; the current bucket is a heap, events beyond
+//! the last bucket wait in a list. The order of events depends on times and indices alone, never on the widths, so that
+//! a calendar made anew from the next times continues to the bit.
+//! Source: Paul 2007, doi:10.1016/j.jcp.2006.06.042, with lazily removed entries.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// Next event of one disk.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Entry {
+    time: f64,
+    disk: u32,
+}
+
+impl Eq for Entry {}
+
+impl PartialOrd for Entry {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Reversed, since `BinaryHeap` gives the largest first.
+impl Ord for Entry {
+    #[inline]
+    fn cmp(&self, other: &Self) -> Ordering {
+        if self.time < other.time {
+            Ordering::Greater
+        } else if self.time > other.time {
+            Ordering::Less
+        } else {
+            other.disk.cmp(&self.disk)
+        }
+    }
+}
+
+/// Calendar with lazily removed entries.
+#[derive(Debug, Clone, Default)]
+pub struct Calendar {
+    /// Entries of the current bucket and of all before it.
+    current: BinaryHeap<Entry>,
+    buckets: Vec<Vec<Entry>>,
+    far: Vec<Entry>,
+    /// Buckets per second.
+    rate: f64,
+    /// Number of the current bucket since time zero.
+    base: i64,
+}
+
+impl Calendar {
+    /// Empties the calendar and sets it up for `disks` events of which about `rate` happen in a second, from `time` on.
+    pub fn reset(&mut self, disks: usize, rate: f64, time: f64) {
+        let count = disks.next_power_of_two().max(64);
+        self.buckets.iter_mut().for_each(Vec::clear);
+        self.buckets.resize_with(count, Vec::new);
+        self.current.clear();
+        self.far.clear();
+        self.rate = if rate.is_finite() && rate > 0.0 { rate } else { 1.0 };
+        self.base = self.bucket_of(time);
+    }
+
+    /// Notes the next event of a disk. Its earlier entry becomes stale.
+    #[inline]
+    pub fn schedule(&mut self, disk: u32, time: f64) {
+        self.put(Entry { time, disk });
+    }
+
+    /// The earliest valid event, left in place. `next_times` tells which entries are valid.
+    #[inline]
+    pub fn peek(&mut self, next_time: impl Fn(u32) -> f64) -> Option<(f64, u32)> {
+        loop {
+            while let Some(entry) = self.current.peek() {
+                if next_time(entry.disk) == entry.time {
+                    return Some((entry.time, entry.disk));
+                }
+                self.current.pop();
+            }
+            if !self.turn(&next_time) {
+                return None;
+            }
+        }
+    }
+
+    /// Takes out what [`Self::peek`] showed.
+    #[inline]
+    pub fn pop(&mut self) {
+        self.current.pop();
+    }
+
+    fn bucket_of(&self, time: f64) -> i64 {
+        // Saturates for events that never come.
+        (time * self.rate) as i64
+    }
+
+    #[inline]
+    fn put(&mut self, entry: Entry) {
+        let bucket = self.bucket_of(entry.time);
+        if bucket <= self.base {
+            self.current.push(entry);
+        } else if bucket < self.base + self.buckets.len() as i64 {
+            let mask = self.buckets.len() - 1;
+            self.buckets[bucket as usize & mask].push(entry);
+        } else {
+            self.far.push(entry);
+        }
+    }
+
+    /// Goes on to the next bucket. False if there is nothing left but events that never come.
+    #[cold]
+    fn turn(&mut self, next_time: &impl Fn(u32) -> f64) -> bool {
+        let count = self.buckets.len();
+        for _ in 0..=count {
+            self.base += 1;
+            let bucket = self.base as usize & (count - 1);
+            if bucket == 0 {
+                let far = std::mem::take(&mut self.far);
+                far.into_iter().filter(|entry| next_time(entry.disk) == entry.time).for_each(|entry| self.put(entry));
+            }
+            let entries = std::mem::take(&mut self.buckets[bucket]);
+            let valid = entries.iter().filter(|entry| next_time(entry.disk) == entry.time);
+            self.current.extend(valid);
+            self.buckets[bucket] = entries;
+            self.buckets[bucket].clear();
+            if !self.current.is_empty() {
+                return true;
+            }
+        }
+        self.leap(next_time)
+    }
+
+    /// Nothing in a whole year of buckets: goes straight to the earliest of the far events.
+    fn leap(&mut self, next_time: &impl Fn(u32) -> f64) -> bool {
+        self.far.retain(|entry| next_time(entry.disk) == entry.time);
+        let earliest = self.far.iter().map(|entry| entry.time).fold(f64::INFINITY, f64::min);
+        if earliest == f64::INFINITY {
+            return false;
+        }
+        self.base = self.bucket_of(earliest);
+        let far = std::mem::take(&mut self.far);
+        far.into_iter().for_each(|entry| self.put(entry));
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_pcg::Pcg64;
+    use rand_pcg::rand_core::{Rng, SeedableRng};
+
+    /// Against a plain search for the smallest, with times near, far, equal and infinite, and widths good and bad.
+    #[test]
+    fn gives_what_a_plain_search_gives() {
+        let mut random = Pcg64::seed_from_u64(11);
+        for rate in [1e-3, 1.0, 50.0, 1e6] {
+            let disks = 100_usize;
+            let mut next: Vec<f64> = (0..disks).map(|disk| disk as f64 * 0.01).collect();
+            let mut calendar = Calendar::default();
+            calendar.reset(disks, rate, 0.0);
+            next.iter().enumerate().for_each(|(disk, time)| calendar.schedule(disk as u32, *time));
+            for _ in 0..5000 {
+                let expected = (0..disks).min_by(|a, b| next[*a].total_cmp(&next[*b]).then(a.cmp(b))).unwrap();
+                let (time, disk) = calendar.peek(|disk| next[disk as usize]).unwrap();
+                assert_eq!((time, disk as usize), (next[expected], expected));
+                calendar.pop();
+                for changed in [expected, (random.next_u32() as usize) % disks] {
+                    let delay = match random.next_u32() % 10 {
+                        0 => 0.0,
+                        1 => 40.0,
+                        2 if changed != expected => f64::INFINITY,
+                        _ => f64::from(random.next_u32() % 1000) * 1e-3,
+                    };
+                    next[changed] = time + delay;
+                    calendar.schedule(changed as u32, time + delay);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_end_of_events_is_told() {
+        let mut calendar = Calendar::default();
+        calendar.reset(2, 1.0, 0.0);
+        calendar.schedule(0, f64::INFINITY);
+        calendar.schedule(1, f64::INFINITY);
+        assert_eq!(calendar.peek(|_| f64::INFINITY), None);
+    }
+}

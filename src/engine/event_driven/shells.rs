@@ -1,0 +1,219 @@
+//! Who may meet whom while each disk stays in its shell: neighbour lists that are renewed disk by disk.
+//!
+//! Each disk has a shell around the place of its last listing, wider than its radius by its slack. Two disks are
+//! neighbours if their shells touch; as long as both stay in their shells no others can meet. Only a disk that leaves its
+//! shell is listed anew, with the help of a grid of cells. Source: Donev, Torquato and Stillinger 2005,
+//! doi:10.1016/j.jcp.2004.08.014, near-neighbour lists.
+
+use serde::{Deserialize, Serialize};
+
+use super::space::Space;
+
+const NONE: u32 = u32::MAX;
+
+/// Place of a disk's last listing and its links in the grid of cells.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Anchor {
+    place: [f64; 2],
+    radius: f64,
+    cell: u32,
+    next: u32,
+    previous: u32,
+    /// In a cell at the edge of a periodic region, whose neighbours may be images.
+    at_edge: bool,
+}
+
+/// Neighbour lists and the cells behind them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Shells {
+    anchors: Vec<Anchor>,
+    /// Rows of `stride` numbers: how many neighbours, then which.
+    rows: Vec<u32>,
+    stride: usize,
+    /// First disk of each cell.
+    heads: Vec<u32>,
+    columns: usize,
+    lines: usize,
+    /// Radius of a shell over the radius of its disk.
+    factor: f64,
+    corner: [f64; 2],
+    per_metre: [f64; 2],
+}
+
+impl Shells {
+    /// Lists all disks, given by places and radii \[m\]; shells are `factor` > 1 times as wide as disks.
+    pub fn new<S: Space>(space: &S, places: &[[f64; 2]], radii: &[f64], factor: f64) -> Self {
+        let (corner, [width, height]) = space.region();
+        let side = 2.0 * factor * radii.iter().copied().fold(0.0, f64::max);
+        let most = (4 * places.len() + 16) as f64;
+        let columns = (width / side).clamp(1.0, most) as usize;
+        let lines = (height / side).clamp(1.0, (most / columns as f64).max(1.0)) as usize;
+        let anchors = places.iter().zip(radii).map(|(&place, &radius)| Anchor {
+            place,
+            radius,
+            cell: 0,
+            next: NONE,
+            previous: NONE,
+            at_edge: false,
+        });
+        let stride = 16;
+        let mut shells = Self {
+            anchors: anchors.collect(),
+            rows: vec![0; stride * places.len()],
+            stride,
+            heads: vec![NONE; columns * lines],
+            columns,
+            lines,
+            factor,
+            corner,
+            per_metre: [columns as f64 / width, lines as f64 / height],
+        };
+        for disk in 0..places.len() as u32 {
+            shells.link::<S>(disk);
+            shells.meet_neighbours(space, disk);
+        }
+        shells
+    }
+
+    /// Neighbours of a disk.
+    #[inline]
+    pub fn neighbours(&self, disk: u32) -> &[u32] {
+        let row = &self.rows[disk as usize * self.stride..][..self.stride];
+        &row[1..=row[0] as usize]
+    }
+
+    /// Place of the last listing \[m\].
+    #[inline]
+    pub fn anchor(&self, disk: u32) -> [f64; 2] {
+        self.anchors[disk as usize].place
+    }
+
+    /// Whether separations of this disk may need the shortest image.
+    #[inline]
+    pub fn at_edge(&self, disk: u32) -> bool {
+        self.anchors[disk as usize].at_edge
+    }
+
+    /// How far the centre may be from the anchor \[m\].
+    #[inline]
+    pub fn slack(&self, radius: f64) -> f64 {
+        (self.factor - 1.0) * radius
+    }
+
+    /// Lists a disk anew at `place`.
+    pub fn relist<S: Space>(&mut self, space: &S, disk: u32, place: [f64; 2]) {
+        self.unlink(disk);
+        self.leave_neighbours(disk);
+        self.anchors[disk as usize].place = place;
+        self.link::<S>(disk);
+        self.meet_neighbours(space, disk);
+    }
+
+    fn link<S: Space>(&mut self, disk: u32) {
+        let anchor = &mut self.anchors[disk as usize];
+        let index = |axis: usize, count: usize| {
+            // A negative or huge place saturates to the cells at the edge.
+            (((anchor.place[axis] - self.corner[axis]) * self.per_metre[axis]) as usize).min(count - 1)
+        };
+        let (column, line) = (index(0, self.columns), index(1, self.lines));
+        anchor.at_edge = (S::PERIODIC[0] && (column == 0 || column + 1 == self.columns))
+            || (S::PERIODIC[1] && (line == 0 || line + 1 == self.lines));
+        let cell = line * self.columns + column;
+        anchor.cell = cell as u32;
+        anchor.next = self.heads[cell];
+        anchor.previous = NONE;
+        let next = anchor.next;
+        if next != NONE {
+            self.anchors[next as usize].previous = disk;
+        }
+        self.heads[cell] = disk;
+    }
+
+    fn unlink(&mut self, disk: u32) {
+        let Anchor { cell, next, previous, .. } = self.anchors[disk as usize];
+        if previous == NONE {
+            self.heads[cell as usize] = next;
+        } else {
+            self.anchors[previous as usize].next = next;
+        }
+        if next != NONE {
+            self.anchors[next as usize].previous = previous;
+        }
+    }
+
+    fn leave_neighbours(&mut self, disk: u32) {
+        let start = disk as usize * self.stride;
+        for entry in 1..=self.rows[start] as usize {
+            let other = self.rows[start + entry] as usize * self.stride;
+            let row = &mut self.rows[other..other + self.stride];
+            let count = row[0] as usize;
+            if let Some(found) = row[1..=count].iter().position(|&neighbour| neighbour == disk) {
+                row[1 + found] = row[count];
+                row[0] -= 1;
+            }
+        }
+        self.rows[start] = 0;
+    }
+
+    fn meet_neighbours<S: Space>(&mut self, space: &S, disk: u32) {
+        let Anchor { place, radius, cell, at_edge, .. } = self.anchors[disk as usize];
+        let (line, column) = (cell as usize / self.columns, cell as usize % self.columns);
+        for (line, first_line) in around(line, self.lines, S::PERIODIC[1]) {
+            for (column, first_column) in around(column, self.columns, S::PERIODIC[0]) {
+                // In a periodic region of one or two cells across, a cell would be met more than once.
+                if !(first_line && first_column) {
+                    continue;
+                }
+                let mut other = self.heads[line * self.columns + column];
+                while other != NONE {
+                    let there = &self.anchors[other as usize];
+                    let mut separation = [place[0] - there.place[0], place[1] - there.place[1]];
+                    if at_edge {
+                        separation = space.shortest(separation);
+                    }
+                    let reach = self.factor * (radius + there.radius);
+                    let next = there.next;
+                    if separation[0] * separation[0] + separation[1] * separation[1] < reach * reach && other != disk {
+                        self.add(disk, other);
+                        self.add(other, disk);
+                    }
+                    other = next;
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn add(&mut self, disk: u32, neighbour: u32) {
+        let mut start = disk as usize * self.stride;
+        let count = self.rows[start] as usize + 1;
+        if count == self.stride {
+            self.widen();
+            start = disk as usize * self.stride;
+        }
+        self.rows[start] = count as u32;
+        self.rows[start + count] = neighbour;
+    }
+
+    /// Twice as much room in every row: some disk has more neighbours than rows hold.
+    #[cold]
+    fn widen(&mut self) {
+        let mut rows = vec![0; 2 * self.rows.len()];
+        for (new, old) in rows.chunks_exact_mut(2 * self.stride).zip(self.rows.chunks_exact(self.stride)) {
+            new[..self.stride].copy_from_slice(old);
+        }
+        self.rows = rows;
+        self.stride *= 2;
+    }
+}
+
+/// The up to three indices around `centre` below `count`, each with whether it is met for the first time.
+#[inline]
+fn around(centre: usize, count: usize, periodic: bool) -> impl Iterator<Item = (usize, bool)> {
+    let before = if centre > 0 { Some(centre - 1) } else { (periodic && count > 1).then(|| count - 1) };
+    let after = if centre + 1 < count { Some(centre + 1) } else { (periodic && count > 1).then_some(0) };
+    let after_is_new = after != before;
+    [(before, true), (Some(centre), true), (after, after_is_new)]
+        .into_iter()
+        .filter_map(|(index, first)| index.map(|index| (index, first)))
+}

@@ -36,7 +36,7 @@ fn lattice(count: usize, packing_fraction: f64) -> (Vec<Disk>, [f64; 2]) {
 fn main() {
     let arguments: Vec<f64> = std::env::args().skip(1).filter_map(|argument| argument.parse().ok()).collect();
     let sizes = [60, 1000, 10_000, 100_000];
-    let shell = arguments.first().copied().unwrap_or(1.5);
+    let shell = arguments.first().copied().unwrap_or(1.6);
     for count in sizes {
         let (disks, size) = lattice(count, 0.6);
         let mut random = Pcg64::seed_from_u64(1);

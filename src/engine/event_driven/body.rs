@@ -48,14 +48,8 @@ pub struct Spin {
     pub angle: f64,
     /// Angular velocity \[rad/s\].
     pub angular_velocity: f64,
-    /// 1/m \[1/kg\].
-    pub inverse_mass: f64,
     /// Local time of the last impact \[s\]; before the first, of the start.
     pub since: f64,
-    /// `impacts` of the partner when its next event was predicted.
-    pub partner_impacts: u32,
-    /// Bits of the walls within reach of its shell.
-    pub walls: u32,
     /// Periods that the disk has been moved by, to the right and up.
     pub periods: [i32; 2],
 }

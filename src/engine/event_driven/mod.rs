@@ -26,7 +26,7 @@ pub use field::{Field, Gravity, Weightless};
 pub use space::{Open, Periodic, Space};
 
 use queue::Calendar;
-use shells::Shells;
+use shells::{Listing, Shells};
 
 /// Partner code: the disk may leave its shell.
 const LEAVES_SHELL: u32 = u32::MAX;
@@ -133,7 +133,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { shell: 1.5, start_time: 0.0 }
+        Self { shell: 1.6, start_time: 0.0 }
     }
 }
 
@@ -146,8 +146,6 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         velocities: &[[f64; 3]],
         settings: Settings,
     ) -> Self {
-        let places: Vec<[f64; 2]> = disks.iter().map(|disk| [disk.x, disk.y]).collect();
-        let radii: Vec<f64> = disks.iter().map(|disk| disk.radius).collect();
         let bodies = disks.iter().zip(velocities).map(|(disk, velocity)| Body {
             x: disk.x,
             y: disk.y,
@@ -159,13 +157,10 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             impacts: 0,
             partner: LEAVES_SHELL,
         });
-        let spins = masses.iter().zip(velocities).map(|(mass, velocity)| Spin {
+        let spins = velocities.iter().map(|velocity| Spin {
             angle: 0.0,
             angular_velocity: velocity[2],
-            inverse_mass: 1.0 / mass,
             since: 0.0,
-            partner_impacts: 0,
-            walls: 0,
             periods: [0, 0],
         });
         let state = State {
@@ -174,7 +169,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             spins: spins.collect(),
             boundary,
             counts: Counts::default(),
-            shells: Shells::new(&space, &places, &radii, settings.shell),
+            shells: Shells::new(&space, disks, masses, settings.shell),
         };
         let near = vec![Candidate::default(); 64];
         let mut engine = Self { law, field, space, state, calendar: Calendar::default(), near };
@@ -252,7 +247,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             self.predict(disk, now);
             return self.watch(now, (disk, Partner::Wall(partner - WALLS)));
         }
-        if self.state.bodies[partner as usize].impacts != self.state.spins[disk as usize].partner_impacts {
+        if self.state.bodies[partner as usize].impacts != self.state.shells.listings[disk as usize].partner_impacts {
             self.state.counts.stale += 1;
             self.predict(disk, now);
             return Ok(());
@@ -269,46 +264,49 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         bodies[j].fly(now, self.field);
         let (a, b) = (bodies[i], bodies[j]);
         let mut separation = [a.x - b.x, a.y - b.y];
-        if shells.at_edge(first) {
+        let (here, there) = (&shells.listings[i], &shells.listings[j]);
+        if here.at_edge {
             separation = self.space.shortest(separation);
         }
-        let inverse = 1.0 / separation[0].hypot(separation[1]);
+        let inverse = 1.0 / (separation[0] * separation[0] + separation[1] * separation[1]).sqrt();
         let n = [separation[0] * inverse, separation[1] * inverse];
         let (vx, vy) = (a.vx - b.vx, a.vy - b.vy);
-        let (s, t) = (spins[i], spins[j]);
-        let turning = if L::ROTATES { a.radius * s.angular_velocity + b.radius * t.angular_velocity } else { 0.0 };
+        let spin = |disk: usize| if L::ROTATES { spins[disk].angular_velocity } else { 0.0 };
+        let since = |disk: usize| if L::REMEMBERS { spins[disk].since } else { f64::NEG_INFINITY };
+        let turning = a.radius * spin(i) + b.radius * spin(j);
         let impact = Impact {
-            effective_mass: effective_mass(s.inverse_mass, t.inverse_mass),
+            effective_mass: effective_mass(here.inverse_mass, there.inverse_mass),
             tangential_mass: tangential_mass(
-                s.inverse_mass,
-                t.inverse_mass,
-                INVERSE_INERTIA_FACTOR * s.inverse_mass,
-                INVERSE_INERTIA_FACTOR * t.inverse_mass,
+                here.inverse_mass,
+                there.inverse_mass,
+                INVERSE_INERTIA_FACTOR * here.inverse_mass,
+                INVERSE_INERTIA_FACTOR * there.inverse_mass,
             ),
             normal_velocity: (vx * n[0] + vy * n[1]).min(0.0),
             tangential_velocity: vx * n[1] - vy * n[0] + turning,
-            time_since_last: now - s.since.max(t.since),
+            time_since_last: now - since(i).max(since(j)),
         };
         let impulse = self.law.impulse(&impact);
         let (along, across) = (impulse.normal, impulse.tangential);
         let push = [along * n[0] + across * n[1], along * n[1] - across * n[0]];
-        for (disk, sign) in [(i, 1.0), (j, -1.0)] {
-            let (body, spin) = (&mut bodies[disk], &mut spins[disk]);
-            body.vx += sign * push[0] * spin.inverse_mass;
-            body.vy += sign * push[1] * spin.inverse_mass;
+        for (disk, signed_inverse_mass) in [(i, here.inverse_mass), (j, -there.inverse_mass)] {
+            let body = &mut bodies[disk];
+            body.vx += push[0] * signed_inverse_mass;
+            body.vy += push[1] * signed_inverse_mass;
             body.impacts = body.impacts.wrapping_add(1);
-            turn::<L>(spin, body.radius, across, now);
+            turn::<L>(&mut spins[disk], signed_inverse_mass.abs() / body.radius, across, now);
         }
         counts.disk_impacts += 1;
         counts.energy_lost += heat(&impact, along, across);
     }
 
     fn meet_wall(&mut self, disk: u32, wall: u32, now: f64) {
-        let State { bodies, spins, boundary, counts, .. } = &mut self.state;
+        let State { bodies, spins, boundary, counts, shells, .. } = &mut self.state;
         let (body, spin) = (&mut bodies[disk as usize], &mut spins[disk as usize]);
+        let inverse_mass = shells.listings[disk as usize].inverse_mass;
         let impact_at = |normal_velocity: f64, tangential_velocity: f64| Impact {
-            effective_mass: 1.0 / spin.inverse_mass,
-            tangential_mass: tangential_mass(spin.inverse_mass, 0.0, INVERSE_INERTIA_FACTOR * spin.inverse_mass, 0.0),
+            effective_mass: 1.0 / inverse_mass,
+            tangential_mass: tangential_mass(inverse_mass, 0.0, INVERSE_INERTIA_FACTOR * inverse_mass, 0.0),
             normal_velocity,
             tangential_velocity,
             time_since_last: now - spin.since,
@@ -325,10 +323,10 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         let impulse = law.impulse(&impact);
         let (along, across) = (impulse.normal, impulse.tangential);
         let push = [along * n[0] + across * n[1], along * n[1] - across * n[0]];
-        body.vx += push[0] * spin.inverse_mass;
-        body.vy += push[1] * spin.inverse_mass;
+        body.vx += push[0] * inverse_mass;
+        body.vy += push[1] * inverse_mass;
         body.impacts = body.impacts.wrapping_add(1);
-        turn::<L>(spin, body.radius, across, now);
+        turn::<L>(spin, inverse_mass / body.radius, across, now);
         counts.wall_impacts += 1;
         counts.energy_lost += heat(&impact, along, across);
         counts.energy_input += push[0] * meeting.velocity[0] + push[1] * meeting.velocity[1];
@@ -339,14 +337,13 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
 
     /// Finds the next event of a disk that is at `now`.
     fn predict(&mut self, disk: u32, now: f64) {
-        let State { bodies, spins, shells, boundary, .. } = &mut self.state;
+        let State { bodies, shells, boundary, .. } = &mut self.state;
         let body = bodies[disk as usize];
         let gravity = self.field.gravity();
-        let anchor = shells.anchor(disk);
+        let Listing { anchor, at_edge, walls, .. } = shells.listings[disk as usize];
         let mut earliest = time_in_shell(&body, anchor, shells.slack(body.radius), gravity);
         let mut partner = LEAVES_SHELL;
 
-        let at_edge = shells.at_edge(disk);
         let neighbours = shells.neighbours(disk);
         if self.near.len() < neighbours.len() {
             self.near.resize(neighbours.len(), Candidate::default());
@@ -371,11 +368,13 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             let cross = separation[0] * vy - separation[1] * vx;
             let discriminant = speed * squared - cross * cross;
             self.near[count] = Candidate { disk: other, approach, gap, discriminant };
-            // `gap / (2 approach)` bounds the time to touch from below.
-            let worth = (approach > 0.0) & (discriminant >= 0.0) & (gap < 2.0 * approach * earliest);
-            count += usize::from(worth);
+            count += usize::from((approach > 0.0) & (discriminant >= 0.0));
         }
         for candidate in &self.near[..count] {
+            // `gap / (2 approach)` bounds the time to touch from below.
+            if candidate.gap >= 2.0 * candidate.approach * earliest {
+                continue;
+            }
             let delay = if candidate.gap > 0.0 {
                 candidate.gap / (candidate.approach + candidate.discriminant.sqrt())
             } else {
@@ -386,15 +385,14 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             }
         }
 
-        let spin = &mut spins[disk as usize];
-        if B::EXISTS && spin.walls != 0 {
-            let (delay, wall) = boundary.first_hit(spin.walls, &body, now, gravity, earliest);
+        if B::EXISTS && walls != 0 {
+            let (delay, wall) = boundary.first_hit(walls, &body, now, gravity, earliest);
             if delay < earliest {
                 (earliest, partner) = (delay, WALLS + wall);
             }
         }
         if partner < WALLS {
-            spin.partner_impacts = bodies[partner as usize].impacts;
+            shells.listings[disk as usize].partner_impacts = bodies[partner as usize].impacts;
         }
         let body = &mut bodies[disk as usize];
         body.partner = partner;
@@ -422,10 +420,11 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
 
     fn find_walls(&mut self, disk: u32) {
         if B::EXISTS {
-            let State { bodies, spins, shells, boundary, .. } = &mut self.state;
+            let State { bodies, shells, boundary, .. } = &mut self.state;
             let radius = bodies[disk as usize].radius;
             let distance = radius + shells.slack(radius);
-            spins[disk as usize].walls = boundary.within_reach(shells.anchor(disk), distance);
+            let listing = &mut shells.listings[disk as usize];
+            listing.walls = boundary.within_reach(listing.anchor, distance);
         }
     }
 
@@ -447,34 +446,31 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         for disk in 0..self.state.bodies.len() as u32 {
             self.state.bodies[disk as usize].fly(now, self.field);
         }
-        self.calendar.reset(self.state.bodies.len(), self.event_rate(), now);
+        self.calendar.reset(self.state.bodies.len(), f64::INFINITY, now);
         for disk in 0..self.state.bodies.len() as u32 {
             self.predict(disk, now);
         }
-        // The rate is known only now.
+        // The delays are known only now.
         self.fill_calendar();
     }
 
+    /// Makes the calendar from the disks' next times.
     fn fill_calendar(&mut self) {
         let bodies = &self.state.bodies;
-        let earliest = bodies.iter().map(|body| body.next_time).fold(f64::INFINITY, f64::min);
-        let start = if earliest.is_finite() { earliest } else { 0.0 };
-        self.calendar.reset(bodies.len(), self.event_rate(), start);
+        let finite = |body: &&Body| body.next_time.is_finite();
+        let (mut earliest, mut delays, mut count) = (f64::INFINITY, 0.0, 0_u32);
+        for body in bodies.iter().filter(finite) {
+            earliest = earliest.min(body.next_time);
+            delays += body.next_time - body.time;
+            count += 1;
+        }
+        let earliest = if count > 0 { earliest } else { 0.0 };
+        // What is pending waits longer than the mean event: a disk's next event is more often a long wait than a short.
+        let mean_delay = 0.5 * delays / f64::from(count.max(1));
+        self.calendar.reset(bodies.len(), mean_delay, earliest);
         for (disk, body) in bodies.iter().enumerate() {
             self.calendar.schedule(disk as u32, body.next_time);
         }
-    }
-
-    /// Events in a second, about: as many as the disks' next times tell.
-    fn event_rate(&self) -> f64 {
-        let bodies = &self.state.bodies;
-        let rates = bodies.iter().map(|body| 1.0 / (body.next_time - body.time)).filter(|rate| rate.is_finite());
-        let (mut sum, mut count) = (0.0, 0);
-        for rate in rates.filter(|rate| *rate < 1e12) {
-            sum += rate;
-            count += 1;
-        }
-        if count == 0 { 1.0 } else { sum / f64::from(count) * bodies.len() as f64 / 16.0 }
     }
 
     /// Moves the origin of local time on.
@@ -493,10 +489,10 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
 
 /// Brings the angle up to `now` and applies the tangential impulse.
 #[inline(always)]
-fn turn<L: CollisionLaw>(spin: &mut Spin, radius: f64, across: f64, now: f64) {
+fn turn<L: CollisionLaw>(spin: &mut Spin, inverse_mass_over_radius: f64, across: f64, now: f64) {
     if L::ROTATES {
         spin.angle += spin.angular_velocity * (now - spin.since);
-        spin.angular_velocity += INVERSE_INERTIA_FACTOR * across * spin.inverse_mass / radius;
+        spin.angular_velocity += INVERSE_INERTIA_FACTOR * across * inverse_mass_over_radius;
     }
     if L::ROTATES || L::REMEMBERS {
         spin.since = now;

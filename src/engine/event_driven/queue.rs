@@ -1,13 +1,12 @@
 //! Calendar of events: one time per disk, the earliest first, ties by index.
 //!
 //! Events are never searched for to be taken out: an entry whose time is no longer its disk's next time is stale and is
-//! passed over when it comes up. Buckets of equal width hold what is near; the current bucket is a heap, events beyond
-//! the last bucket wait in a list. The order of events depends on times and indices alone, never on the widths, so that
-//! a calendar made anew from the next times continues to the bit.
+//! passed over when it comes up. Buckets of equal width hold what is near; the current bucket is kept sorted, events
+//! beyond the last bucket wait in a list. The order of events depends on times and indices alone, never on the widths, so
+//! that a calendar made anew from the next times continues to the bit.
 //! Source: Paul 2007, doi:10.1016/j.jcp.2006.06.042, with lazily removed entries.
 
 use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 
 /// Next event of one disk.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,33 +15,26 @@ struct Entry {
     disk: u32,
 }
 
-impl Eq for Entry {}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-/// Reversed, since `BinaryHeap` gives the largest first.
-impl Ord for Entry {
+impl Entry {
+    /// Latest first, so that the earliest is at the end of a sorted list.
     #[inline]
-    fn cmp(&self, other: &Self) -> Ordering {
-        if self.time < other.time {
-            Ordering::Greater
-        } else if self.time > other.time {
-            Ordering::Less
-        } else {
-            other.disk.cmp(&self.disk)
-        }
+    fn descending(&self, other: &Self) -> Ordering {
+        other.time.total_cmp(&self.time).then(other.disk.cmp(&self.disk))
     }
 }
+
+/// Most buckets: the table of buckets should stay in the cache.
+const MOST_BUCKETS: usize = 1 << 15;
+/// Buckets per disk, as far as there may be.
+const BUCKETS_PER_DISK: usize = 4;
+/// Mean delays of an event that the buckets cover together.
+const DELAYS_COVERED: f64 = 4.0;
 
 /// Calendar with lazily removed entries.
 #[derive(Debug, Clone, Default)]
 pub struct Calendar {
-    /// Entries of the current bucket and of all before it.
-    current: BinaryHeap<Entry>,
+    /// Entries of the current bucket and of all before it, latest first.
+    current: Vec<Entry>,
     buckets: Vec<Vec<Entry>>,
     far: Vec<Entry>,
     /// Buckets per second.
@@ -52,13 +44,15 @@ pub struct Calendar {
 }
 
 impl Calendar {
-    /// Empties the calendar and sets it up for `disks` events of which about `rate` happen in a second, from `time` on.
-    pub fn reset(&mut self, disks: usize, rate: f64, time: f64) {
-        let count = disks.next_power_of_two().max(64);
+    /// Empties the calendar and sets it up for as many `disks`, whose events come after a mean delay \[s\], from `time`
+    /// \[s\] on.
+    pub fn reset(&mut self, disks: usize, mean_delay: f64, time: f64) {
+        let count = (BUCKETS_PER_DISK * disks).next_power_of_two().clamp(64, MOST_BUCKETS);
         self.buckets.iter_mut().for_each(Vec::clear);
         self.buckets.resize_with(count, Vec::new);
         self.current.clear();
         self.far.clear();
+        let rate = count as f64 / (DELAYS_COVERED * mean_delay);
         self.rate = if rate.is_finite() && rate > 0.0 { rate } else { 1.0 };
         self.base = self.bucket_of(time);
     }
@@ -69,11 +63,11 @@ impl Calendar {
         self.put(Entry { time, disk });
     }
 
-    /// The earliest valid event, left in place. `next_times` tells which entries are valid.
+    /// The earliest valid event, left in place. `next_time` tells which entries are valid.
     #[inline]
     pub fn peek(&mut self, next_time: impl Fn(u32) -> f64) -> Option<(f64, u32)> {
         loop {
-            while let Some(entry) = self.current.peek() {
+            while let Some(entry) = self.current.last() {
                 if next_time(entry.disk) == entry.time {
                     return Some((entry.time, entry.disk));
                 }
@@ -91,6 +85,7 @@ impl Calendar {
         self.current.pop();
     }
 
+    #[inline]
     fn bucket_of(&self, time: f64) -> i64 {
         // Saturates for events that never come.
         (time * self.rate) as i64
@@ -100,7 +95,8 @@ impl Calendar {
     fn put(&mut self, entry: Entry) {
         let bucket = self.bucket_of(entry.time);
         if bucket <= self.base {
-            self.current.push(entry);
+            let place = self.current.partition_point(|other| other.descending(&entry) == Ordering::Less);
+            self.current.insert(place, entry);
         } else if bucket < self.base + self.buckets.len() as i64 {
             let mask = self.buckets.len() - 1;
             self.buckets[bucket as usize & mask].push(entry);
@@ -109,22 +105,29 @@ impl Calendar {
         }
     }
 
-    /// Goes on to the next bucket. False if there is nothing left but events that never come.
-    #[cold]
+    /// Goes on to the next bucket that holds a valid event. False if there is nothing left but events that never come.
     fn turn(&mut self, next_time: &impl Fn(u32) -> f64) -> bool {
         let count = self.buckets.len();
-        for _ in 0..=count {
+        let mut empty = 0;
+        while empty < count {
             self.base += 1;
+            empty += 1;
             let bucket = self.base as usize & (count - 1);
-            if bucket == 0 {
+            if bucket == 0 && !self.far.is_empty() {
                 let far = std::mem::take(&mut self.far);
+                let before = far.len();
                 far.into_iter().filter(|entry| next_time(entry.disk) == entry.time).for_each(|entry| self.put(entry));
+                if self.far.len() < before {
+                    empty = 0; // some may have come into buckets that were passed already
+                }
             }
-            let entries = std::mem::take(&mut self.buckets[bucket]);
-            let valid = entries.iter().filter(|entry| next_time(entry.disk) == entry.time);
-            self.current.extend(valid);
-            self.buckets[bucket] = entries;
-            self.buckets[bucket].clear();
+            let entries = &mut self.buckets[bucket];
+            if !entries.is_empty() {
+                let valid = entries.iter().filter(|entry| next_time(entry.disk) == entry.time);
+                self.current.extend(valid);
+                entries.clear();
+                self.current.sort_unstable_by(Entry::descending);
+            }
             if !self.current.is_empty() {
                 return true;
             }
@@ -133,6 +136,7 @@ impl Calendar {
     }
 
     /// Nothing in a whole year of buckets: goes straight to the earliest of the far events.
+    #[cold]
     fn leap(&mut self, next_time: &impl Fn(u32) -> f64) -> bool {
         self.far.retain(|entry| next_time(entry.disk) == entry.time);
         let earliest = self.far.iter().map(|entry| entry.time).fold(f64::INFINITY, f64::min);
@@ -156,11 +160,11 @@ mod tests {
     #[test]
     fn gives_what_a_plain_search_gives() {
         let mut random = Pcg64::seed_from_u64(11);
-        for rate in [1e-3, 1.0, 50.0, 1e6] {
+        for mean_delay in [1e-6, 0.02, 1.0, 1e3] {
             let disks = 100_usize;
             let mut next: Vec<f64> = (0..disks).map(|disk| disk as f64 * 0.01).collect();
             let mut calendar = Calendar::default();
-            calendar.reset(disks, rate, 0.0);
+            calendar.reset(disks, mean_delay, 0.0);
             next.iter().enumerate().for_each(|(disk, time)| calendar.schedule(disk as u32, *time));
             for _ in 0..5000 {
                 let expected = (0..disks).min_by(|a, b| next[*a].total_cmp(&next[*b]).then(a.cmp(b))).unwrap();

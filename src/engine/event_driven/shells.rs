@@ -7,26 +7,38 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::Disk;
+
 use super::space::Space;
 
 const NONE: u32 = u32::MAX;
 
-/// Place of a disk's last listing and its links in the grid of cells.
+/// Last listing of a disk, its links in the grid of cells, and what else predictions keep: one cache line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-struct Anchor {
-    place: [f64; 2],
+#[repr(align(64))]
+pub struct Listing {
+    /// Centre \[m\] when it was listed: the middle of its shell.
+    pub anchor: [f64; 2],
+    /// Radius \[m\].
     radius: f64,
+    /// 1/m \[1/kg\].
+    pub inverse_mass: f64,
+    /// Count of impacts of the partner when the next event was predicted.
+    pub partner_impacts: u32,
+    /// Bits of the walls within reach of the shell.
+    pub walls: u32,
     cell: u32,
     next: u32,
     previous: u32,
     /// In a cell at the edge of a periodic region, whose neighbours may be images.
-    at_edge: bool,
+    pub at_edge: bool,
 }
 
 /// Neighbour lists and the cells behind them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Shells {
-    anchors: Vec<Anchor>,
+    /// One for each disk.
+    pub listings: Vec<Listing>,
     /// Rows of `stride` numbers: how many neighbours, then which.
     rows: Vec<u32>,
     stride: usize,
@@ -41,16 +53,19 @@ pub struct Shells {
 }
 
 impl Shells {
-    /// Lists all disks, given by places and radii \[m\]; shells are `factor` > 1 times as wide as disks.
-    pub fn new<S: Space>(space: &S, places: &[[f64; 2]], radii: &[f64], factor: f64) -> Self {
+    /// Lists all disks of these masses \[kg\]; shells are `factor` > 1 times as wide as disks.
+    pub fn new<S: Space>(space: &S, disks: &[Disk], masses: &[f64], factor: f64) -> Self {
         let (corner, [width, height]) = space.region();
-        let side = 2.0 * factor * radii.iter().copied().fold(0.0, f64::max);
-        let most = (4 * places.len() + 16) as f64;
+        let side = 2.0 * factor * disks.iter().map(|disk| disk.radius).fold(0.0, f64::max);
+        let most = (4 * disks.len() + 16) as f64;
         let columns = (width / side).clamp(1.0, most) as usize;
         let lines = (height / side).clamp(1.0, (most / columns as f64).max(1.0)) as usize;
-        let anchors = places.iter().zip(radii).map(|(&place, &radius)| Anchor {
-            place,
-            radius,
+        let listings = disks.iter().zip(masses).map(|(disk, mass)| Listing {
+            anchor: [disk.x, disk.y],
+            radius: disk.radius,
+            inverse_mass: 1.0 / mass,
+            partner_impacts: 0,
+            walls: 0,
             cell: 0,
             next: NONE,
             previous: NONE,
@@ -58,8 +73,8 @@ impl Shells {
         });
         let stride = 16;
         let mut shells = Self {
-            anchors: anchors.collect(),
-            rows: vec![0; stride * places.len()],
+            listings: listings.collect(),
+            rows: vec![0; stride * disks.len()],
             stride,
             heads: vec![NONE; columns * lines],
             columns,
@@ -68,7 +83,7 @@ impl Shells {
             corner,
             per_metre: [columns as f64 / width, lines as f64 / height],
         };
-        for disk in 0..places.len() as u32 {
+        for disk in 0..disks.len() as u32 {
             shells.link::<S>(disk);
             shells.meet_neighbours(space, disk);
         }
@@ -82,18 +97,6 @@ impl Shells {
         &row[1..=row[0] as usize]
     }
 
-    /// Place of the last listing \[m\].
-    #[inline]
-    pub fn anchor(&self, disk: u32) -> [f64; 2] {
-        self.anchors[disk as usize].place
-    }
-
-    /// Whether separations of this disk may need the shortest image.
-    #[inline]
-    pub fn at_edge(&self, disk: u32) -> bool {
-        self.anchors[disk as usize].at_edge
-    }
-
     /// How far the centre may be from the anchor \[m\].
     #[inline]
     pub fn slack(&self, radius: f64) -> f64 {
@@ -104,40 +107,40 @@ impl Shells {
     pub fn relist<S: Space>(&mut self, space: &S, disk: u32, place: [f64; 2]) {
         self.unlink(disk);
         self.leave_neighbours(disk);
-        self.anchors[disk as usize].place = place;
+        self.listings[disk as usize].anchor = place;
         self.link::<S>(disk);
         self.meet_neighbours(space, disk);
     }
 
     fn link<S: Space>(&mut self, disk: u32) {
-        let anchor = &mut self.anchors[disk as usize];
+        let listing = &mut self.listings[disk as usize];
         let index = |axis: usize, count: usize| {
             // A negative or huge place saturates to the cells at the edge.
-            (((anchor.place[axis] - self.corner[axis]) * self.per_metre[axis]) as usize).min(count - 1)
+            (((listing.anchor[axis] - self.corner[axis]) * self.per_metre[axis]) as usize).min(count - 1)
         };
         let (column, line) = (index(0, self.columns), index(1, self.lines));
-        anchor.at_edge = (S::PERIODIC[0] && (column == 0 || column + 1 == self.columns))
+        listing.at_edge = (S::PERIODIC[0] && (column == 0 || column + 1 == self.columns))
             || (S::PERIODIC[1] && (line == 0 || line + 1 == self.lines));
         let cell = line * self.columns + column;
-        anchor.cell = cell as u32;
-        anchor.next = self.heads[cell];
-        anchor.previous = NONE;
-        let next = anchor.next;
+        listing.cell = cell as u32;
+        listing.next = self.heads[cell];
+        listing.previous = NONE;
+        let next = listing.next;
         if next != NONE {
-            self.anchors[next as usize].previous = disk;
+            self.listings[next as usize].previous = disk;
         }
         self.heads[cell] = disk;
     }
 
     fn unlink(&mut self, disk: u32) {
-        let Anchor { cell, next, previous, .. } = self.anchors[disk as usize];
+        let Listing { cell, next, previous, .. } = self.listings[disk as usize];
         if previous == NONE {
             self.heads[cell as usize] = next;
         } else {
-            self.anchors[previous as usize].next = next;
+            self.listings[previous as usize].next = next;
         }
         if next != NONE {
-            self.anchors[next as usize].previous = previous;
+            self.listings[next as usize].previous = previous;
         }
     }
 
@@ -156,7 +159,7 @@ impl Shells {
     }
 
     fn meet_neighbours<S: Space>(&mut self, space: &S, disk: u32) {
-        let Anchor { place, radius, cell, at_edge, .. } = self.anchors[disk as usize];
+        let Listing { anchor, radius, cell, at_edge, .. } = self.listings[disk as usize];
         let (line, column) = (cell as usize / self.columns, cell as usize % self.columns);
         for (line, first_line) in around(line, self.lines, S::PERIODIC[1]) {
             for (column, first_column) in around(column, self.columns, S::PERIODIC[0]) {
@@ -166,8 +169,8 @@ impl Shells {
                 }
                 let mut other = self.heads[line * self.columns + column];
                 while other != NONE {
-                    let there = &self.anchors[other as usize];
-                    let mut separation = [place[0] - there.place[0], place[1] - there.place[1]];
+                    let there = &self.listings[other as usize];
+                    let mut separation = [anchor[0] - there.anchor[0], anchor[1] - there.anchor[1]];
                     if at_edge {
                         separation = space.shortest(separation);
                     }

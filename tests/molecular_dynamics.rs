@@ -130,6 +130,44 @@ fn impacts_converge_to_the_reference() {
     impact_table::<Gear5>();
 }
 
+/// Head-on impacts of two free disks of different radii reproduce e_n of their effective mass (P 4.56).
+#[test]
+fn binary_collisions_have_the_restitution_of_their_effective_mass() {
+    for damping in [0.0, 0.1, 3.0, 12.0] {
+        let disks = [
+            Disk {
+                x: -0.021,
+                y: 0.0,
+                radius: 0.015,
+            },
+            Disk {
+                x: 0.021,
+                y: 0.0,
+                radius: 0.025,
+            },
+        ];
+        let masses = vec![mass(0.015), mass(0.025)];
+        let effective_mass = 1.0 / (1.0 / masses[0] + 1.0 / masses[1]);
+        let laws = laws(damping, 0.77, 0.1);
+        let setup = Setup {
+            laws,
+            walls: Vec::new(),
+            masses,
+            gravity: 0.0,
+            time_step: 1e-6,
+            start_time: 0.0,
+        };
+        let mut engine = MolecularDynamics::<VelocityVerlet, _>::new(setup, &disks, at_rest());
+        engine.set_motion(|state| state.velocity.copy_from_slice(&[0.2, 0.0, 0.0, -0.1, 0.0, 0.0]));
+        engine.advance_to(0.05).unwrap();
+        let rates = engine.now().rates();
+        let restitution = (rates[1][0] - rates[0][0]) / 0.3;
+        let error = (restitution - laws.normal.restitution(effective_mass)).abs();
+        println!("gamma_n = {damping} kg/s: e_n = {restitution:.6}, error {error:.1e}");
+        assert!(error < 2e-3, "gamma_n = {damping}: {restitution}");
+    }
+}
+
 /// Two free disks, oblique and spinning: momentum and angular momentum are kept to rounding though they overlap.
 fn free_collision<I: Integrator>() -> f64 {
     let disks = [

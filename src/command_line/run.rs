@@ -32,7 +32,7 @@ pub struct Run {
     #[command(flatten)]
     selection: Selection,
     /// Simulated time.
-    #[arg(long, value_parser = positive)]
+    #[arg(long, value_parser = positive, allow_negative_numbers = true)]
     seconds: f64,
     /// File for the samples.
     #[arg(long, value_name = "FILE", default_value = "run.csv")]

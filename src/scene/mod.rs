@@ -1,15 +1,18 @@
 //! Scenes: engines, laws, drives and measures wired together, with their parameters, ranges and variables.
 //!
-//! A [`Scene`] is all that the FMI boundary, the command line and a Rust program need to know. It never names FMI.
+//! A [`Scene`] is all that the FMI boundary and the command line need to know; a Rust program takes a [`Simulation`] of
+//! it. Neither names FMI.
 
 pub mod base_drive;
 pub mod packing;
+mod simulation;
 pub mod variables;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::Result;
+pub use simulation::Simulation;
 pub use variables::{Causality, Kind, OutputWriter, Quantity, Table, Unit, Value, Values, Variable};
 
 /// What is decided when a component is bundled and can be decided no later, since it changes the list of variables.

@@ -275,6 +275,18 @@ pub enum Value {
     Integer(i64),
 }
 
+impl From<f64> for Value {
+    fn from(real: f64) -> Self {
+        Self::Real(real)
+    }
+}
+
+impl From<i64> for Value {
+    fn from(integer: i64) -> Self {
+        Self::Integer(integer)
+    }
+}
+
 /// The rows of a scene with an index by name. Made once per instance, shared and never changed.
 pub struct Table {
     rows: Vec<Variable>,

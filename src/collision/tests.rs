@@ -287,7 +287,7 @@ fn floor_and_contact_time() {
     };
     assert_eq!(lasting.separation_velocity(&late), 0.5);
     assert_eq!(lasting.separation_velocity(&soon), 1.0);
-    assert!(!Coulomb::REMEMBERS && <ContactTime<Coulomb>>::REMEMBERS && !<ContactTime<Smooth>>::ROTATES);
+    const { assert!(!Coulomb::REMEMBERS && <ContactTime<Coulomb>>::REMEMBERS && !<ContactTime<Smooth>>::ROTATES) };
 }
 
 /// Impacts without approach, without slide, with enormous slide: finite impulses, none where there is none.

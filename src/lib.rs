@@ -1,7 +1,7 @@
 //! Vibrated granular disks as components that plug into other people's simulations.
 //!
 //! SI units throughout; x to the right, y up, angles and angular velocities counter-clockwise.
-//! Imports point one way: `fmi, main -> scene -> measure -> engine -> contact, drive -> geometry`.
+//! Imports point one way: `fmi, main -> scene -> measure -> engine -> contact, collision, drive -> geometry`.
 
 pub mod collision;
 pub mod contact;

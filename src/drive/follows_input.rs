@@ -43,6 +43,16 @@ impl FollowsInput {
             start_slope + end_slope - 2.0 * rise,
         ];
     }
+
+    /// End of the present cubic \[s\]: what comes after depends on the next inputs.
+    pub fn end_time(&self) -> f64 {
+        self.start_time + self.duration
+    }
+
+    /// Rate of the acceleration \[m/s3\], constant along a cubic.
+    pub fn jerk(&self) -> f64 {
+        6.0 * self.coefficients[3] / self.duration.powi(3)
+    }
 }
 
 impl Drive for FollowsInput {

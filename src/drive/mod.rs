@@ -2,13 +2,17 @@
 //!
 //! A drive is a type, so that a scene compiles only the one it has.
 
+mod first_hit;
 mod follows_input;
+mod random_phase;
 mod sine;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+pub use first_hit::FirstHit;
 pub use follows_input::FollowsInput;
+pub use random_phase::{RandomPhase, leaves_wall};
 pub use sine::Sine;
 
 /// Vertical motion of the base at one instant.

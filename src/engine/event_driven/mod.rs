@@ -14,6 +14,7 @@ mod field;
 mod queue;
 mod shells;
 mod space;
+mod walls;
 
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +25,7 @@ pub use body::{Body, Spin};
 pub use boundary::{Boundary, Meeting, Unbounded};
 pub use field::{Field, Gravity, Weightless};
 pub use space::{Open, Periodic, Space};
+pub use walls::{AtRandomPhase, Moving, VibratingBase, Walls};
 
 use queue::Calendar;
 use shells::{Listing, Shells};
@@ -213,14 +215,18 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         self.fill_calendar();
     }
 
-    /// Changes the boundary by hand and predicts everything anew from local time `now` \[s\].
-    pub fn set_boundary(&mut self, time: f64, change: impl FnOnce(&mut B)) {
+    /// Changes the boundary at `time` \[s\] and predicts anew whoever is near a wall before or after.
+    pub fn change_boundary(&mut self, time: f64, change: impl FnOnce(&mut B)) {
         change(&mut self.state.boundary);
         let now = time - self.state.epoch;
         for disk in 0..self.state.bodies.len() as u32 {
+            let before = self.state.shells.listings[disk as usize].walls;
             self.find_walls(disk);
+            if before | self.state.shells.listings[disk as usize].walls != 0 {
+                self.state.bodies[disk as usize].fly(now, self.field);
+                self.predict(disk, now);
+            }
         }
-        self.predict_all(now);
     }
 
     /// Place, velocity, angle and angular velocity of a disk at `time` \[s\], with periods undone.
@@ -311,11 +317,10 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             tangential_velocity,
             time_since_last: now - spin.since,
         };
-        // Whether the disk leaves is asked for a wall with this normal velocity, before its tangential one is known.
+        // Asked before the tangential velocity is known, which no law needs for the normal one.
         let law = &self.law;
-        let leaves = |approach: f64| law.separation_velocity(&impact_at(approach, 0.0));
-        let velocity = [body.vx, body.vy];
-        let meeting = boundary.meet(wall, velocity, now, |approach| leaves(approach) > 0.0);
+        let separation = |approach: f64| law.separation_velocity(&impact_at(approach, 0.0));
+        let meeting = boundary.meet(wall, [body.vx, body.vy], now, separation);
         let n = meeting.normal;
         let (vx, vy) = (body.vx - meeting.velocity[0], body.vy - meeting.velocity[1]);
         let turning = if L::ROTATES { body.radius * spin.angular_velocity } else { 0.0 };

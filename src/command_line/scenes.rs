@@ -1,5 +1,6 @@
 //! The scenes that the command line knows. A new scene is one line in [`with_scene`]'s table.
 
+use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
 use jostle::scene::{Card, Scene};
 use jostle::{Error, Result};
@@ -38,7 +39,7 @@ macro_rules! scenes {
     };
 }
 
-scenes![PackingOnInput, PackingOnSine,];
+scenes![PackingOnInput, PackingOnSine, HardPackingOnInput, HardPackingOnSine,];
 
 /// Position of the card with this scene, engine and drive.
 fn find(cards: &[Card], name: &str, engine: Option<&str>, drive: &str) -> Result<usize> {

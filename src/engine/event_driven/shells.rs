@@ -112,6 +112,37 @@ impl Shells {
         self.meet_neighbours(space, disk);
     }
 
+    /// Whether these can be shells of the same disks as `own`: every index exists and every list ends.
+    pub fn is_sound(&self, own: &Self) -> bool {
+        let disks = own.listings.len();
+        let known = |disk: u32| disk == NONE || (disk as usize) < disks;
+        let rows_hold = self.stride > 1
+            && self.rows.len() == disks * self.stride
+            && self.rows.chunks_exact(self.stride).all(|row| {
+                let count = row[0] as usize;
+                count < self.stride && row[1..=count].iter().all(|&disk| (disk as usize) < disks)
+            });
+        let listings_hold = self.listings.len() == disks
+            && self.listings.iter().all(|listing| {
+                known(listing.next) && known(listing.previous) && (listing.cell as usize) < own.heads.len()
+            });
+        let same_grid = (self.columns, self.lines, self.heads.len()) == (own.columns, own.lines, own.heads.len());
+        rows_hold && listings_hold && same_grid && self.heads.iter().all(|&head| known(head)) && self.chains_end()
+    }
+
+    /// Each disk is in one chain and no chain is a ring.
+    fn chains_end(&self) -> bool {
+        let mut met = 0;
+        for &head in &self.heads {
+            let mut disk = head;
+            while disk != NONE && met <= self.listings.len() {
+                met += 1;
+                disk = self.listings[disk as usize].next;
+            }
+        }
+        met == self.listings.len()
+    }
+
     fn link<S: Space>(&mut self, disk: u32) {
         let listing = &mut self.listings[disk as usize];
         let index = |axis: usize, count: usize| {
@@ -133,7 +164,9 @@ impl Shells {
     }
 
     fn unlink(&mut self, disk: u32) {
-        let Listing { cell, next, previous, .. } = self.listings[disk as usize];
+        let Listing {
+            cell, next, previous, ..
+        } = self.listings[disk as usize];
         if previous == NONE {
             self.heads[cell as usize] = next;
         } else {
@@ -159,7 +192,13 @@ impl Shells {
     }
 
     fn meet_neighbours<S: Space>(&mut self, space: &S, disk: u32) {
-        let Listing { anchor, radius, cell, at_edge, .. } = self.listings[disk as usize];
+        let Listing {
+            anchor,
+            radius,
+            cell,
+            at_edge,
+            ..
+        } = self.listings[disk as usize];
         let (line, column) = (cell as usize / self.columns, cell as usize % self.columns);
         for (line, first_line) in around(line, self.lines, S::PERIODIC[1]) {
             for (column, first_column) in around(column, self.columns, S::PERIODIC[0]) {
@@ -202,7 +241,10 @@ impl Shells {
     #[cold]
     fn widen(&mut self) {
         let mut rows = vec![0; 2 * self.rows.len()];
-        for (new, old) in rows.chunks_exact_mut(2 * self.stride).zip(self.rows.chunks_exact(self.stride)) {
+        for (new, old) in rows
+            .chunks_exact_mut(2 * self.stride)
+            .zip(self.rows.chunks_exact(self.stride))
+        {
             new[..self.stride].copy_from_slice(old);
         }
         self.rows = rows;
@@ -213,8 +255,16 @@ impl Shells {
 /// The up to three indices around `centre` below `count`, each with whether it is met for the first time.
 #[inline]
 fn around(centre: usize, count: usize, periodic: bool) -> impl Iterator<Item = (usize, bool)> {
-    let before = if centre > 0 { Some(centre - 1) } else { (periodic && count > 1).then(|| count - 1) };
-    let after = if centre + 1 < count { Some(centre + 1) } else { (periodic && count > 1).then_some(0) };
+    let before = if centre > 0 {
+        Some(centre - 1)
+    } else {
+        (periodic && count > 1).then(|| count - 1)
+    };
+    let after = if centre + 1 < count {
+        Some(centre + 1)
+    } else {
+        (periodic && count > 1).then_some(0)
+    };
     let after_is_new = after != before;
     [(before, true), (Some(centre), true), (after, after_is_new)]
         .into_iter()

@@ -89,7 +89,9 @@ impl VibratingBase for AtRandomPhase {
             let (approach, lift) = (normal_velocity - base * normal_up, base * normal_up);
             approach < 0.0 && separation(approach) + lift > 0.0
         };
-        let drawn = self.phase.sample_leaving(&mut self.generator, normal_velocity, normal_up, leaves);
+        let drawn = self
+            .phase
+            .sample_leaving(&mut self.generator, normal_velocity, normal_up, leaves);
         drawn.unwrap_or(0.0)
     }
 }
@@ -123,7 +125,11 @@ impl<W: VibratingBase> Boundary for Walls<W> {
             walls &= walls - 1;
             let wall = &self.walls[index as usize];
             let [nx, ny] = wall.normal;
-            let mut flight = Flight { gap: 0.0, velocity: nx * body.vx + ny * body.vy, pull: gravity * ny };
+            let mut flight = Flight {
+                gap: 0.0,
+                velocity: nx * body.vx + ny * body.vy,
+                pull: gravity * ny,
+            };
             let delay = if wall.follows_base == 0.0 {
                 flight.gap = wall.distance(body.x, body.y, 0.0) - body.radius;
                 disk_wall(&flight)
@@ -144,10 +150,16 @@ impl<W: VibratingBase> Boundary for Walls<W> {
         let wall = self.walls[wall as usize];
         let [nx, ny] = wall.normal;
         if wall.follows_base == 0.0 {
-            return Meeting { normal: wall.normal, velocity: [0.0, 0.0] };
+            return Meeting {
+                normal: wall.normal,
+                velocity: [0.0, 0.0],
+            };
         }
         let velocity = self.base.velocity(self.origin + now, nx * vx + ny * vy, ny, separation);
-        Meeting { normal: wall.normal, velocity: [0.0, velocity] }
+        Meeting {
+            normal: wall.normal,
+            velocity: [0.0, velocity],
+        }
     }
 
     fn is_base(&self, wall: u32) -> bool {

@@ -1,4 +1,4 @@
-//! The packing with hard disks: the same box, radii and contact parameters, by event-driven dynamics (P 2.3, 3.3).
+//! Engines of the packing with hard disks: laws, base and walls from the same parameters as the soft ones (P 2.3, 3.3).
 
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::SeedableRng;
@@ -6,9 +6,9 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::collision::{ContactTime, Dashpot, TabulatedDashpot, effective_mass};
-use crate::drive::{Drive, FirstHit, FollowsInput, Motion, RandomPhase, Sine};
+use crate::drive::{Drive, FollowsInput, Motion, RandomPhase, Sine};
 use crate::engine::event_driven::{
-    AtRandomPhase, Boundary, Counts, EventDriven, Gravity, Moving, NoHeadway, Open, Settings, State, VibratingBase, Walls,
+    AtRandomPhase, Counts, EventDriven, Gravity, Moving, NoHeadway, Open, Settings, State, VibratingBase, Walls,
 };
 use crate::error::Result;
 use crate::geometry::{Disk, Wall};
@@ -80,7 +80,10 @@ impl PackingBase for Moving<Sine> {
 
     fn from_values(start_time: f64, values: &Values) -> Result<Self> {
         let drive = <Sine as BaseDrive>::new(start_time, values)?;
-        Ok(Self { drive, farthest: drive.amplitude })
+        Ok(Self {
+            drive,
+            farthest: drive.amplitude,
+        })
     }
 
     fn aim(&mut self, _time: f64, _duration: f64, _values: &Values) -> bool {
@@ -112,7 +115,10 @@ impl PackingBase for AtRandomPhase {
         let peak_velocity = sine.amplitude * std::f64::consts::TAU * sine.frequency;
         // Another stream than that of the radii, which has the seed itself.
         let generator = Pcg64::seed_from_u64((values.integer("seed") as u64) ^ 0x9e37_79b9_7f4a_7c15);
-        Ok(Self { phase: RandomPhase { peak_velocity }, generator })
+        Ok(Self {
+            phase: RandomPhase { peak_velocity },
+            generator,
+        })
     }
 
     fn aim(&mut self, _time: f64, _duration: f64, _values: &Values) -> bool {
@@ -146,8 +152,12 @@ impl<W: PackingBase> HardRun for HardDisks<W> {
         inverse.dedup();
         // Beyond a few classes the tables would cost more than they save, and impacts are stitched one by one.
         let classes: Vec<f64> = if inverse.len() <= MOST_CLASSES {
-            let with_others = inverse.iter().flat_map(|one| inverse.iter().map(|two| effective_mass(*one, *two)));
-            with_others.chain(inverse.iter().map(|one| effective_mass(*one, 0.0))).collect()
+            let with_others = inverse
+                .iter()
+                .flat_map(|one| inverse.iter().map(|two| effective_mass(*one, *two)));
+            with_others
+                .chain(inverse.iter().map(|one| effective_mass(*one, 0.0)))
+                .collect()
         } else {
             Vec::new()
         };
@@ -155,14 +165,40 @@ impl<W: PackingBase> HardRun for HardDisks<W> {
         let law = ContactTime::new(table, values.real("collision.contact_time"))?;
         let base = W::from_values(start_time, values)?;
         let lift = base.motion(start_time).displacement;
-        let disks: Vec<Disk> = disks.iter().map(|disk| Disk { y: disk.y + lift, ..*disk }).collect();
+        let disks: Vec<Disk> = disks
+            .iter()
+            .map(|disk| Disk {
+                y: disk.y + lift,
+                ..*disk
+            })
+            .collect();
         let width = values.real("box.width");
-        let walls = vec![Wall::vibrating_floor(), Wall::left(-0.5 * width), Wall::right(0.5 * width)];
-        let boundary = Walls { walls, base, origin: start_time };
-        let space = Open { corner: [-0.5 * width, 0.0], size: [width, REGION_HEIGHT * width] };
-        let settings = Settings { start_time, ..Settings::default() };
+        let walls = vec![
+            Wall::vibrating_floor(),
+            Wall::left(-0.5 * width),
+            Wall::right(0.5 * width),
+        ];
+        let boundary = Walls {
+            walls,
+            base,
+            origin: start_time,
+        };
+        let space = Open {
+            corner: [-0.5 * width, 0.0],
+            size: [width, REGION_HEIGHT * width],
+        };
+        let settings = Settings {
+            start_time,
+            ..Settings::default()
+        };
         let gravity = Gravity(values.real("gravity"));
-        Ok(Self::new((law, boundary, gravity, space), &disks, masses, &vec![[0.0; 3]; disks.len()], settings))
+        Ok(Self::new(
+            (law, boundary, gravity, space),
+            &disks,
+            masses,
+            &vec![[0.0; 3]; disks.len()],
+            settings,
+        ))
     }
 
     fn aim(&mut self, time: f64, duration: f64, values: &Values) {

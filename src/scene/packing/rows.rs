@@ -20,11 +20,19 @@ pub const RANDOM_PHASE: i64 = 1;
 
 /// Parameter of the event-driven packing on a sine.
 pub fn base_model() -> Variable {
-    Variable::long_parameter(
+    const OPTIONS: &[(&str, &str)] = &[
+        (
+            "random_phase",
+            "Fixed bottom that lends each impact the velocity of a base of random phase",
+        ),
+        ("moving", "Bottom that moves"),
+    ];
+    Variable::enumeration_parameter(
         "base.model",
-        1..=2,
+        "base_model",
+        OPTIONS,
         2,
-        "Bottom of the box: 1 fixed with a random phase at each impact, 2 moving",
+        "What the bottom of the box does",
     )
 }
 

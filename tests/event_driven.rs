@@ -104,6 +104,28 @@ fn elastic_gas_keeps_energy_momentum_and_hardness() {
     assert!(gas.state().counts.energy_lost.abs() < 1e-9 * energy);
 }
 
+/// The same over a hundred million events. Half a minute: `cargo test --release --test event_driven -- --ignored`.
+#[test]
+#[ignore = "takes half a minute in release mode"]
+fn elastic_gas_keeps_energy_and_momentum_over_a_hundred_million_events() {
+    let (mut gas, masses) = gas(Smooth::ELASTIC, 10, 1.8);
+    let (energy, _) = sums(&gas, &masses, 0.0);
+    let mut time = 0.0;
+    while gas.state().counts.disk_impacts + gas.state().counts.listings + gas.state().counts.stale < 100_000_000 {
+        time += 1000.0;
+        gas.advance_to(time).unwrap();
+        assert!(deepest_overlap(&gas, time, 10.0) < 1e-9);
+    }
+    let (energy_now, momentum) = sums(&gas, &masses, time);
+    let drift = energy_now / energy - 1.0;
+    println!(
+        "{} impacts: energy drift {drift:.1e}, momentum {momentum:?}",
+        gas.state().counts.disk_impacts
+    );
+    // Rounding of each impact is about 1e-16 of its energy, at random.
+    assert!(drift.abs() < 1e-11 * 1e8_f64.sqrt() && momentum[0].hypot(momentum[1]) < 1e-10);
+}
+
 /// With friction and loss: what the tally says is lost is what is missing; momentum stays.
 #[test]
 fn cooling_gas_balances_its_energy() {

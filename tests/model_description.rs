@@ -9,6 +9,7 @@ use std::path::Path;
 
 use jostle::fmi::Version;
 use jostle::fmi::bundle::Component;
+use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
 use jostle::scene::{Choice, Scene};
 
@@ -42,4 +43,14 @@ fn packing_on_input() {
 #[test]
 fn packing_on_sine() {
     committed::<PackingOnSine>();
+}
+
+#[test]
+fn hard_packing_on_input() {
+    committed::<HardPackingOnInput>();
+}
+
+#[test]
+fn hard_packing_on_sine() {
+    committed::<HardPackingOnSine>();
 }

@@ -266,6 +266,36 @@ fn chatter_keeps_its_digits() {
     }
 }
 
+/// Any sizes and signs give a time, and soon.
+#[test]
+fn delays_are_delays() {
+    let sizes = [0.0, 1e-30, 1e-17, 1e-3, 1.0, 1e6].map(|size| [size, -size]).concat();
+    let mut input = FollowsInput::uniform(0.0, 0.0, 0.0);
+    input.aim(0.0, 1e-3, 1e-5, 0.02);
+    for amplitude in [1e-30, 1e-9, 1e-3, 1.0] {
+        let sine = Sine {
+            amplitude,
+            frequency: 50.0,
+            phase: 0.3,
+        };
+        for gap in &sizes {
+            for velocity in &sizes {
+                for pull in &sizes {
+                    for normal_up in &sizes {
+                        let flight = Flight {
+                            gap: *gap,
+                            velocity: *velocity,
+                            pull: *pull,
+                        };
+                        assert!(sine.first_hit(1e-4, &flight, *normal_up) >= 0.0);
+                        assert!(input.first_hit(1e-4, &flight, *normal_up) >= 0.0);
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// At a touch without relative velocity the base's acceleration decides: below -g it leaves the disk behind.
 #[test]
 fn a_disk_at_rest_on_the_base_lifts_off() {

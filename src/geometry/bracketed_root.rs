@@ -26,7 +26,12 @@ pub(crate) fn falling_root_near(mut low: f64, mut high: f64, guess: f64, functio
         }
         let newton = at - value / slope;
         let step = (newton - at).abs();
-        let next = if newton > low && newton < high && step < 0.5 * last_step {
+        let inside = newton > low && newton < high;
+        // Errors square from step to step: what the next step would still change is about step^3 / last_step^2.
+        if inside && step * step * step <= 0.25 * f64::EPSILON * newton.abs() * last_step * last_step {
+            return newton;
+        }
+        let next = if inside && step < 0.5 * last_step {
             newton
         } else {
             0.5 * (low + high)

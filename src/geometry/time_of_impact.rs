@@ -118,6 +118,24 @@ mod tests {
         assert_eq!(disk_disk([1.0, 0.0], [f64::NAN, 0.3], 1.0), f64::INFINITY);
     }
 
+    /// Any sizes and signs, as long as their fourth powers are numbers.
+    #[test]
+    fn times_are_times() {
+        let sizes = [0.0, 1e-70, 1e-17, 1e-3, 1.0, 7.0, 1e17, 1e70]
+            .map(|size| [size, -size])
+            .concat();
+        for a in &sizes {
+            for b in &sizes {
+                for c in &sizes {
+                    assert!(wall(*a, *b, *c) >= 0.0);
+                    for d in &sizes {
+                        assert!(disk_disk([*a, *b], [*c, *d], 1.0) >= 0.0);
+                    }
+                }
+            }
+        }
+    }
+
     /// Far apart the two terms of the printed discriminant agree in all digits but the last few.
     #[test]
     fn distant_disks_keep_their_digits() {

@@ -175,10 +175,15 @@ impl Propagator {
                         return (-state[1], state[2]);
                     }
                     slipping = None;
+                    // At the switch the margin of stick is at a double root: step off it before looking at its sign.
+                    state = times(&self.stick.propagators[20], &state);
                 }
             }
         }
-        panic!("no end of impact");
+        panic!(
+            "no end of impact: {:?} ratio {ratio} at {state:?} {slipping:?}",
+            self.material
+        );
     }
 
     /// e_n by steps so long that their rounding does not add up.

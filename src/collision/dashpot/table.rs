@@ -86,6 +86,11 @@ impl TabulatedDashpot {
         &self.law
     }
 
+    /// Number of cubics held: 48 bytes each.
+    pub fn pieces(&self) -> usize {
+        self.classes.iter().map(|class| class.pieces.len()).sum()
+    }
+
     /// Tangential restitution e_t at `ratio` = |u_t / u_n| for an announced effective mass \[kg\].
     pub fn tangential_restitution(&self, effective_mass: f64, ratio: f64) -> Option<f64> {
         self.class(effective_mass).map(|class| {

@@ -28,13 +28,23 @@ fn lattice(count: usize, packing_fraction: f64) -> (Vec<Disk>, [f64; 2]) {
     let disk = |index: usize| {
         let (line, place) = (index / across, index % across);
         let x = (place as f64 + 0.5 * (line % 2) as f64 + 0.25) * spacing;
-        Disk { x, y: (line as f64 + 0.5) * rise, radius: 0.5 }
+        Disk {
+            x,
+            y: (line as f64 + 0.5) * rise,
+            radius: 0.5,
+        }
     };
-    ((0..across * lines).map(disk).collect(), [across as f64 * spacing, lines as f64 * rise])
+    (
+        (0..across * lines).map(disk).collect(),
+        [across as f64 * spacing, lines as f64 * rise],
+    )
 }
 
 fn main() {
-    let arguments: Vec<f64> = std::env::args().skip(1).filter_map(|argument| argument.parse().ok()).collect();
+    let arguments: Vec<f64> = std::env::args()
+        .skip(1)
+        .filter_map(|argument| argument.parse().ok())
+        .collect();
     let sizes = [60, 1000, 10_000, 100_000];
     let shell = arguments.first().copied().unwrap_or(1.6);
     for count in sizes {
@@ -49,13 +59,23 @@ fn main() {
             .collect();
         let number = disks.len() as f64;
         let mean = [0, 1].map(|axis| velocities.iter().map(|velocity| velocity[axis]).sum::<f64>() / number);
-        velocities.iter_mut().for_each(|velocity| (0..2).for_each(|axis| velocity[axis] -= mean[axis]));
-        let energy: f64 = velocities.iter().map(|velocity| velocity[0].powi(2) + velocity[1].powi(2)).sum();
+        velocities
+            .iter_mut()
+            .for_each(|velocity| (0..2).for_each(|axis| velocity[axis] -= mean[axis]));
+        let energy: f64 = velocities
+            .iter()
+            .map(|velocity| velocity[0].powi(2) + velocity[1].powi(2))
+            .sum();
         let scale = (2.0 * number / energy).sqrt();
-        velocities.iter_mut().for_each(|velocity| (0..2).for_each(|axis| velocity[axis] *= scale));
+        velocities
+            .iter_mut()
+            .for_each(|velocity| (0..2).for_each(|axis| velocity[axis] *= scale));
 
         let law = Smooth::new(1.0).expect("elastic");
-        let settings = Settings { shell, ..Settings::default() };
+        let settings = Settings {
+            shell,
+            ..Settings::default()
+        };
         let types = (law, Unbounded, Weightless, Periodic { size });
         let mut engine = EventDriven::new(types, &disks, &vec![1.0; disks.len()], &velocities, settings);
         // 6.15 collisions per disk and unit of time.
@@ -70,7 +90,12 @@ fn main() {
         let collisions = (after.disk_impacts - before.disk_impacts) as f64;
         let per = |count: u64| count as f64 / collisions;
         let bodies = &engine.state().bodies;
-        let energy: f64 = bodies.iter().map(|body| body.vx * body.vx + body.vy * body.vy).sum::<f64>() / number / 2.0;
+        let energy: f64 = bodies
+            .iter()
+            .map(|body| body.vx * body.vx + body.vy * body.vy)
+            .sum::<f64>()
+            / number
+            / 2.0;
         println!(
             "{:6} disks: {:6.1} ns a collision; {:.3} listings, {:.3} stale a collision; {collisions} collisions, energy {energy:.12}",
             disks.len(),

@@ -96,6 +96,11 @@ fn line(row: &Variable, run: usize) -> Vec<String> {
     let (unit, range) = match &row.kind {
         Kind::Real(quantity) => (quantity.unit.name(), real_range(quantity.min, quantity.max)),
         Kind::Integer { range, .. } => ("integer", format!("{} to {}", range.start(), range.end())),
+        Kind::Enumeration { options, .. } => {
+            let option = |(number, (name, _)): (i64, &(&str, &str))| format!("{number} {name}");
+            let options: Vec<String> = (1..).zip(*options).map(option).collect();
+            ("option", options.join(", "))
+        }
         Kind::Long { range, .. } => ("64-bit integer", format!("{} to {}", range.start(), range.end())),
     };
     vec![name, causality.into(), unit.into(), range, start, description]
@@ -124,9 +129,13 @@ mod tests {
         );
         assert_eq!(
             lines[6],
+            "sense        parameter  option          1 ahead, 2 back           1      Which way the hands turn"
+        );
+        assert_eq!(
+            lines[7],
             "angle[1..3]  output     rad             any                       -      Angle of each disk"
         );
-        assert_eq!(lines.len(), 8);
+        assert_eq!(lines.len(), 9);
         let long = page::<Clock>(Choice { disks: 3 }, true);
         assert_eq!(long.lines().count(), short.lines().count() + 2);
         assert!(long.contains("angle[3]"));

@@ -55,7 +55,10 @@ impl Boundary for Unbounded {
     }
 
     fn meet(&mut self, _wall: u32, _velocity: [f64; 2], _now: f64, _leaves: impl Fn(f64) -> bool) -> Meeting {
-        Meeting { normal: [0.0, 1.0], velocity: [0.0, 0.0] }
+        Meeting {
+            normal: [0.0, 1.0],
+            velocity: [0.0, 0.0],
+        }
     }
 
     fn is_base(&self, _wall: u32) -> bool {

@@ -133,7 +133,10 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { shell: 1.6, start_time: 0.0 }
+        Self {
+            shell: 1.6,
+            start_time: 0.0,
+        }
     }
 }
 
@@ -172,7 +175,14 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             shells: Shells::new(&space, disks, masses, settings.shell),
         };
         let near = vec![Candidate::default(); 64];
-        let mut engine = Self { law, field, space, state, calendar: Calendar::default(), near };
+        let mut engine = Self {
+            law,
+            field,
+            space,
+            state,
+            calendar: Calendar::default(),
+            near,
+        };
         for disk in 0..engine.state.bodies.len() as u32 {
             engine.find_walls(disk);
         }
@@ -229,7 +239,10 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         let (mut body, spin) = (self.state.bodies[disk], &self.state.spins[disk]);
         body.fly(now, self.field);
         let [width, height] = self.space.region().1;
-        let place = [body.x + f64::from(spin.periods[0]) * width, body.y + f64::from(spin.periods[1]) * height];
+        let place = [
+            body.x + f64::from(spin.periods[0]) * width,
+            body.y + f64::from(spin.periods[1]) * height,
+        ];
         let angle = spin.angle + spin.angular_velocity * (now - spin.since);
         (place, [body.vx, body.vy], angle, spin.angular_velocity)
     }
@@ -259,7 +272,13 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     }
 
     fn meet_disk(&mut self, first: u32, second: u32, now: f64) {
-        let State { bodies, spins, shells, counts, .. } = &mut self.state;
+        let State {
+            bodies,
+            spins,
+            shells,
+            counts,
+            ..
+        } = &mut self.state;
         let (i, j) = (first as usize, second as usize);
         bodies[j].fly(now, self.field);
         let (a, b) = (bodies[i], bodies[j]);
@@ -272,7 +291,13 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         let n = [separation[0] * inverse, separation[1] * inverse];
         let (vx, vy) = (a.vx - b.vx, a.vy - b.vy);
         let spin = |disk: usize| if L::ROTATES { spins[disk].angular_velocity } else { 0.0 };
-        let since = |disk: usize| if L::REMEMBERS { spins[disk].since } else { f64::NEG_INFINITY };
+        let since = |disk: usize| {
+            if L::REMEMBERS {
+                spins[disk].since
+            } else {
+                f64::NEG_INFINITY
+            }
+        };
         let turning = a.radius * spin(i) + b.radius * spin(j);
         let impact = Impact {
             effective_mass: effective_mass(here.inverse_mass, there.inverse_mass),
@@ -301,7 +326,14 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     }
 
     fn meet_wall(&mut self, disk: u32, wall: u32, now: f64) {
-        let State { bodies, spins, boundary, counts, shells, .. } = &mut self.state;
+        let State {
+            bodies,
+            spins,
+            boundary,
+            counts,
+            shells,
+            ..
+        } = &mut self.state;
         let (body, spin) = (&mut bodies[disk as usize], &mut spins[disk as usize]);
         let inverse_mass = shells.listings[disk as usize].inverse_mass;
         let impact_at = |normal_velocity: f64, tangential_velocity: f64| Impact {
@@ -318,7 +350,11 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         let meeting = boundary.meet(wall, velocity, now, |approach| leaves(approach) > 0.0);
         let n = meeting.normal;
         let (vx, vy) = (body.vx - meeting.velocity[0], body.vy - meeting.velocity[1]);
-        let turning = if L::ROTATES { body.radius * spin.angular_velocity } else { 0.0 };
+        let turning = if L::ROTATES {
+            body.radius * spin.angular_velocity
+        } else {
+            0.0
+        };
         let impact = impact_at((vx * n[0] + vy * n[1]).min(0.0), vx * n[1] - vy * n[0] + turning);
         let impulse = law.impulse(&impact);
         let (along, across) = (impulse.normal, impulse.tangential);
@@ -337,10 +373,17 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
 
     /// Finds the next event of a disk that is at `now`.
     fn predict(&mut self, disk: u32, now: f64) {
-        let State { bodies, shells, boundary, .. } = &mut self.state;
+        let State {
+            bodies,
+            shells,
+            boundary,
+            ..
+        } = &mut self.state;
         let body = bodies[disk as usize];
         let gravity = self.field.gravity();
-        let Listing { anchor, at_edge, walls, .. } = shells.listings[disk as usize];
+        let Listing {
+            anchor, at_edge, walls, ..
+        } = shells.listings[disk as usize];
         let mut earliest = time_in_shell(&body, anchor, shells.slack(body.radius), gravity);
         let mut partner = LEAVES_SHELL;
 
@@ -354,8 +397,10 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             let there = &bodies[other as usize];
             let ahead = now - there.time;
             let fall = ahead * gravity;
-            let mut separation =
-                [body.x - there.x - ahead * there.vx, body.y - there.y - ahead * (there.vy - 0.5 * fall)];
+            let mut separation = [
+                body.x - there.x - ahead * there.vx,
+                body.y - there.y - ahead * (there.vy - 0.5 * fall),
+            ];
             if at_edge {
                 separation = self.space.shortest(separation);
             }
@@ -367,7 +412,12 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             let speed = vx * vx + vy * vy;
             let cross = separation[0] * vy - separation[1] * vx;
             let discriminant = speed * squared - cross * cross;
-            self.near[count] = Candidate { disk: other, approach, gap, discriminant };
+            self.near[count] = Candidate {
+                disk: other,
+                approach,
+                gap,
+                discriminant,
+            };
             count += usize::from((approach > 0.0) & (discriminant >= 0.0));
         }
         for candidate in &self.near[..count] {
@@ -402,7 +452,13 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
 
     /// The disk may be at the end of its shell: if it is near it, it gets a new shell where it is.
     fn renew_shell(&mut self, disk: u32, now: f64) {
-        let State { bodies, spins, shells, counts, .. } = &mut self.state;
+        let State {
+            bodies,
+            spins,
+            shells,
+            counts,
+            ..
+        } = &mut self.state;
         let body = &mut bodies[disk as usize];
         body.fly(now, self.field);
         let place = self.space.wrapped([body.x, body.y]);
@@ -420,7 +476,12 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
 
     fn find_walls(&mut self, disk: u32) {
         if B::EXISTS {
-            let State { bodies, shells, boundary, .. } = &mut self.state;
+            let State {
+                bodies,
+                shells,
+                boundary,
+                ..
+            } = &mut self.state;
             let radius = bodies[disk as usize].radius;
             let distance = radius + shells.slack(radius);
             let listing = &mut shells.listings[disk as usize];
@@ -439,7 +500,12 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         if time - since.1 >= WATCH_TIME {
             return Ok(());
         }
-        Err(NoHeadway { time, impacts: impacts - since.0, took: time - since.1, last })
+        Err(NoHeadway {
+            time,
+            impacts: impacts - since.0,
+            took: time - since.1,
+            last,
+        })
     }
 
     fn predict_all(&mut self, now: f64) {
@@ -475,7 +541,13 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
 
     /// Moves the origin of local time on.
     fn begin_epoch(&mut self) {
-        let State { epoch, bodies, spins, boundary, .. } = &mut self.state;
+        let State {
+            epoch,
+            bodies,
+            spins,
+            boundary,
+            ..
+        } = &mut self.state;
         *epoch += EPOCH;
         boundary.shift(EPOCH);
         bodies.iter_mut().for_each(|body| {

@@ -95,7 +95,9 @@ impl Calendar {
     fn put(&mut self, entry: Entry) {
         let bucket = self.bucket_of(entry.time);
         if bucket <= self.base {
-            let place = self.current.partition_point(|other| other.descending(&entry) == Ordering::Less);
+            let place = self
+                .current
+                .partition_point(|other| other.descending(&entry) == Ordering::Less);
             self.current.insert(place, entry);
         } else if bucket < self.base + self.buckets.len() as i64 {
             let mask = self.buckets.len() - 1;
@@ -116,7 +118,9 @@ impl Calendar {
             if bucket == 0 && !self.far.is_empty() {
                 let far = std::mem::take(&mut self.far);
                 let before = far.len();
-                far.into_iter().filter(|entry| next_time(entry.disk) == entry.time).for_each(|entry| self.put(entry));
+                far.into_iter()
+                    .filter(|entry| next_time(entry.disk) == entry.time)
+                    .for_each(|entry| self.put(entry));
                 if self.far.len() < before {
                     empty = 0; // some may have come into buckets that were passed already
                 }
@@ -165,9 +169,13 @@ mod tests {
             let mut next: Vec<f64> = (0..disks).map(|disk| disk as f64 * 0.01).collect();
             let mut calendar = Calendar::default();
             calendar.reset(disks, mean_delay, 0.0);
-            next.iter().enumerate().for_each(|(disk, time)| calendar.schedule(disk as u32, *time));
+            next.iter()
+                .enumerate()
+                .for_each(|(disk, time)| calendar.schedule(disk as u32, *time));
             for _ in 0..5000 {
-                let expected = (0..disks).min_by(|a, b| next[*a].total_cmp(&next[*b]).then(a.cmp(b))).unwrap();
+                let expected = (0..disks)
+                    .min_by(|a, b| next[*a].total_cmp(&next[*b]).then(a.cmp(b)))
+                    .unwrap();
                 let (time, disk) = calendar.peek(|disk| next[disk as usize]).unwrap();
                 assert_eq!((time, disk as usize), (next[expected], expected));
                 calendar.pop();

@@ -133,7 +133,9 @@ impl Shells {
     }
 
     fn unlink(&mut self, disk: u32) {
-        let Listing { cell, next, previous, .. } = self.listings[disk as usize];
+        let Listing {
+            cell, next, previous, ..
+        } = self.listings[disk as usize];
         if previous == NONE {
             self.heads[cell as usize] = next;
         } else {
@@ -159,7 +161,13 @@ impl Shells {
     }
 
     fn meet_neighbours<S: Space>(&mut self, space: &S, disk: u32) {
-        let Listing { anchor, radius, cell, at_edge, .. } = self.listings[disk as usize];
+        let Listing {
+            anchor,
+            radius,
+            cell,
+            at_edge,
+            ..
+        } = self.listings[disk as usize];
         let (line, column) = (cell as usize / self.columns, cell as usize % self.columns);
         for (line, first_line) in around(line, self.lines, S::PERIODIC[1]) {
             for (column, first_column) in around(column, self.columns, S::PERIODIC[0]) {
@@ -202,7 +210,10 @@ impl Shells {
     #[cold]
     fn widen(&mut self) {
         let mut rows = vec![0; 2 * self.rows.len()];
-        for (new, old) in rows.chunks_exact_mut(2 * self.stride).zip(self.rows.chunks_exact(self.stride)) {
+        for (new, old) in rows
+            .chunks_exact_mut(2 * self.stride)
+            .zip(self.rows.chunks_exact(self.stride))
+        {
             new[..self.stride].copy_from_slice(old);
         }
         self.rows = rows;
@@ -213,8 +224,16 @@ impl Shells {
 /// The up to three indices around `centre` below `count`, each with whether it is met for the first time.
 #[inline]
 fn around(centre: usize, count: usize, periodic: bool) -> impl Iterator<Item = (usize, bool)> {
-    let before = if centre > 0 { Some(centre - 1) } else { (periodic && count > 1).then(|| count - 1) };
-    let after = if centre + 1 < count { Some(centre + 1) } else { (periodic && count > 1).then_some(0) };
+    let before = if centre > 0 {
+        Some(centre - 1)
+    } else {
+        (periodic && count > 1).then(|| count - 1)
+    };
+    let after = if centre + 1 < count {
+        Some(centre + 1)
+    } else {
+        (periodic && count > 1).then_some(0)
+    };
     let after_is_new = after != before;
     [(before, true), (Some(centre), true), (after, after_is_new)]
         .into_iter()

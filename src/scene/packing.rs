@@ -126,7 +126,7 @@ impl<D: BaseDrive, I: Integrator> Packing<D, I> {
 }
 
 /// The time step that a value of `time_step` asks for: 0 asks for the default.
-fn chosen_time_step(asked: f64, limits: &TimeStepLimits) -> Result<f64> {
+pub(super) fn chosen_time_step(asked: f64, limits: &TimeStepLimits) -> Result<f64> {
     if asked == 0.0 {
         return Ok(limits.default);
     }
@@ -142,6 +142,11 @@ fn chosen_time_step(asked: f64, limits: &TimeStepLimits) -> Result<f64> {
 }
 
 fn refusal(breakdown: Breakdown) -> Error {
+    refusal_of(NAME, breakdown)
+}
+
+/// What a scene of molecular dynamics says of a breakdown.
+pub(super) fn refusal_of(scene: &'static str, breakdown: Breakdown) -> Error {
     let smaller = "Check the base's amplitude and the inputs, or take a smaller time_step";
     let (time, what, remedy) = match breakdown {
         Breakdown::TooDeep { time, overlap, allowed } => (
@@ -166,7 +171,7 @@ fn refusal(breakdown: Breakdown) -> Error {
         ),
     };
     Error::Step {
-        scene: NAME,
+        scene,
         time,
         what,
         remedy,

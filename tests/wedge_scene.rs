@@ -281,3 +281,14 @@ fn chatter_ends_or_is_told() {
     assert!(bare.state() == before);
     bare.advance_to(2e-3, &values).unwrap();
 }
+
+/// Work counts, pinned within the time that trajectories can be foretold: a change shows in the diff.
+#[test]
+fn early_work_is_as_it_was() {
+    fn counted<S: Scene>() -> i64 {
+        let mut wedge = wedge::<S>(&[]);
+        wedge.advance_to(0.25).unwrap();
+        wedge.integer("collisions").unwrap()
+    }
+    assert_eq!((counted::<WedgeMap>(), counted::<WedgeEventDrivenOnSine>()), (15, 14));
+}

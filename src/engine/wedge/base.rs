@@ -16,11 +16,11 @@ pub trait WallMotion: Clone + PartialEq + Serialize + DeserializeOwned + Send + 
     /// [`FirstHit::first_hit`].
     fn first_hit(&self, time: f64, flight: &Flight, normal_up: f64) -> f64;
 
-    /// Velocity \[m/s\], up, of the walls at an impact at `time` \[s\]; `normal_velocity` \[m/s\] is the disk's along the
+    /// Velocity \[m/s\], up, of the walls at an impact while they are at `motion`; `normal_velocity` \[m/s\] is the disk's along the
     /// wall's normal. None if there is no velocity with which `leaves` says that the disk gets off the wall.
     fn velocity_at_impact(
         &mut self,
-        time: f64,
+        motion: Motion,
         normal_velocity: f64,
         normal_up: f64,
         leaves: impl Fn(f64) -> bool,
@@ -43,8 +43,8 @@ impl<D: FirstHit> WallMotion for Moving<D> {
     }
 
     #[inline]
-    fn velocity_at_impact(&mut self, time: f64, _: f64, _: f64, _: impl Fn(f64) -> bool) -> Option<f64> {
-        Some(self.0.motion(time).velocity)
+    fn velocity_at_impact(&mut self, motion: Motion, _: f64, _: f64, _: impl Fn(f64) -> bool) -> Option<f64> {
+        Some(motion.velocity)
     }
 }
 
@@ -71,7 +71,7 @@ impl WallMotion for Resting {
     #[inline]
     fn velocity_at_impact(
         &mut self,
-        _time: f64,
+        _motion: Motion,
         normal_velocity: f64,
         normal_up: f64,
         leaves: impl Fn(f64) -> bool,

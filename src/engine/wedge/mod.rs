@@ -68,6 +68,7 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
         let side = if sideways > 0.0 { Side::Right } else { Side::Left };
         let Local { along, above } = setup.frame.bisector();
         let state = State {
+            base: walls.motion(time),
             walls,
             time,
             side,
@@ -115,8 +116,10 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
     #[inline]
     pub fn next_impact(&mut self) -> Result<(), Stuck> {
         let state = &mut self.state;
-        let (place, velocity) = flown(&self.setup, state, state.delay);
+        let base = state.walls.motion(state.time + state.delay);
+        let (place, velocity) = flown(&self.setup, state, state.delay, base);
         state.time += state.delay;
+        state.base = base;
         state.rim_way += state.rim_velocity * state.delay;
         (state.place, state.velocity) = if state.next_side == state.side {
             (place, velocity)
@@ -136,10 +139,12 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
     pub fn steer(&mut self, time: f64, change: impl FnOnce(&mut B)) {
         let state = &mut self.state;
         let delay = time - state.time;
-        (state.place, state.velocity) = flown(&self.setup, state, delay);
+        let base = state.walls.motion(time);
+        (state.place, state.velocity) = flown(&self.setup, state, delay, base);
         state.rim_way += state.rim_velocity * delay;
         state.time = time;
         change(&mut state.walls);
+        state.base = state.walls.motion(time);
         self.predict();
     }
 
@@ -167,8 +172,9 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
     pub fn view(&self, time: f64) -> View {
         let (Setup { frame, radius, .. }, state) = (&self.setup, &self.state);
         let delay = time - state.time;
-        let (place, velocity) = flown(&self.setup, state, delay);
-        let (bisector, lift) = (frame.bisector(), self.base(time).displacement);
+        let base = self.base(time);
+        let (place, velocity) = flown(&self.setup, state, delay, base);
+        let bisector = frame.bisector();
         let shift = radius / bisector.above;
         let [x, y] = frame.laboratory(
             state.side,
@@ -178,7 +184,7 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
             },
         );
         View {
-            place: [x, y + lift],
+            place: [x, y + base.displacement],
             velocity: frame.laboratory(state.side, velocity),
             angle: (state.rim_way + state.rim_velocity * delay) / radius,
             angular_velocity: state.rim_velocity / radius,
@@ -201,7 +207,7 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
             |wall_velocity: f64| self.law.separation_velocity(&impact(wall_velocity)) + wall_velocity * up.above > 0.0;
         let sampled = state
             .walls
-            .velocity_at_impact(state.time, state.velocity.above, up.above, leaves);
+            .velocity_at_impact(state.base, state.velocity.above, up.above, leaves);
         let Some(wall_velocity) = sampled else {
             return false;
         };
@@ -226,7 +232,7 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
     #[inline]
     fn predict(&mut self) {
         let (Setup { frame, gravity, .. }, state) = (&self.setup, &mut self.state);
-        let base = state.walls.motion(state.time).velocity;
+        let base = state.base.velocity;
         let delay = |side: Side, gap: f64, velocity: f64| {
             let up = frame.up(side).above;
             let flight = Flight {
@@ -273,11 +279,11 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
     }
 }
 
-/// Place on the wedge and velocity in the laboratory, `delay` \[s\] after the start of the flight.
+/// Place on the wedge and velocity in the laboratory, `delay` \[s\] after the start of the flight, with the walls at `base`.
 #[inline]
-fn flown<B: WallMotion>(setup: &Setup, state: &State<B>, delay: f64) -> (Local, Local) {
+fn flown<B>(setup: &Setup, state: &State<B>, delay: f64, base: Motion) -> (Local, Local) {
     let up = setup.frame.up(state.side);
-    let rise = state.walls.motion(state.time + delay).displacement - state.walls.motion(state.time).displacement;
+    let rise = base.displacement - state.base.displacement;
     let fall = 0.5 * setup.gravity * delay * delay + rise;
     let slower = setup.gravity * delay;
     let (place, velocity) = (state.place, state.velocity);

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::drive::Motion;
+
 use super::frame::{Local, Side};
 
 /// The flight since the last impact, and what the impacts before it added up to.
@@ -9,8 +11,10 @@ use super::frame::{Local, Side};
 pub struct State<B> {
     /// Motion of the walls, with its random generator if it has one.
     pub walls: B,
-    /// Start of the flight \[s\].
+    /// Start of the flight \[s\]: a sum of delays, whose rounding shifts the phase of the base and nothing else.
     pub time: f64,
+    /// Motion of the walls then.
+    pub base: Motion,
     /// Wall in whose frame the flight is.
     pub side: Side,
     /// Centre of the disk at the start of the flight, from the vertex of the shifted wedge, which moves with the walls

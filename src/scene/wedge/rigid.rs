@@ -123,6 +123,8 @@ fn restore<L: CollisionLaw, B: WallMotion>(disk: &mut DiskInWedge<L, B>, state: 
         state.velocity.above,
         state.rim_velocity,
         state.rim_way,
+        state.base.displacement,
+        state.base.velocity,
     ];
     let in_flight = state.time <= time && time < state.time + state.delay;
     if !(numbers.iter().all(|number| number.is_finite()) && state.delay >= 0.0 && in_flight) {

@@ -6,8 +6,8 @@
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use jostle::collision::Smooth;
-use jostle::engine::event_driven::{EventDriven, Periodic, Settings, Unbounded, Weightless};
+use jostle::collision::{CollisionLaw, Coulomb, Smooth};
+use jostle::engine::event_driven::{EventDriven, Field, Gravity, Periodic, Settings, Unbounded, Weightless};
 use jostle::geometry::Disk;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -40,68 +40,83 @@ fn lattice(count: usize, packing_fraction: f64) -> (Vec<Disk>, [f64; 2]) {
     )
 }
 
+/// Runs a gas and returns CPU nanoseconds a collision, listings and stale events a collision, collisions, energy.
+fn run<L: CollisionLaw, F: Field>(law: L, field: F, count: usize, shell: f64, collisions: f64) -> [f64; 5] {
+    let (disks, size) = lattice(count, 0.6);
+    let number = disks.len() as f64;
+    let mut random = Pcg64::seed_from_u64(1);
+    let mut velocities: Vec<[f64; 3]> = Vec::with_capacity(disks.len());
+    for _ in &disks {
+        let [x, y] = normal_pair(&mut random);
+        velocities.push([x, y, 0.0]);
+    }
+    let mean = [0, 1].map(|axis| velocities.iter().map(|velocity| velocity[axis]).sum::<f64>() / number);
+    velocities
+        .iter_mut()
+        .for_each(|velocity| (0..2).for_each(|axis| velocity[axis] -= mean[axis]));
+    let energy: f64 = velocities
+        .iter()
+        .map(|velocity| velocity[0].powi(2) + velocity[1].powi(2))
+        .sum();
+    let scale = (2.0 * number / energy).sqrt();
+    velocities
+        .iter_mut()
+        .for_each(|velocity| (0..2).for_each(|axis| velocity[axis] *= scale));
+
+    let types = (law, Unbounded, field, Periodic { size });
+    let settings = Settings {
+        shell,
+        ..Settings::default()
+    };
+    let mut engine = EventDriven::new(types, &disks, &vec![1.0; disks.len()], &velocities, settings);
+    // 6.15 collisions per disk and unit of time.
+    let mut end = 20.0 / 6.15;
+    engine.advance_to(end).expect("headway");
+    let before = engine.state().counts;
+    let start = Instant::now();
+    end += collisions / number / 6.15;
+    engine.advance_to(end).expect("headway");
+    let seconds = start.elapsed().as_secs_f64();
+    let after = engine.state().counts;
+    let done = (after.disk_impacts - before.disk_impacts) as f64;
+    let bodies = &engine.state().bodies;
+    let energy: f64 = bodies
+        .iter()
+        .map(|body| body.vx * body.vx + body.vy * body.vy)
+        .sum::<f64>()
+        / number
+        / 2.0;
+    let (listings, stale) = (after.listings - before.listings, after.stale - before.stale);
+    [
+        seconds / done * 1e9,
+        listings as f64 / done,
+        stale as f64 / done,
+        done,
+        energy,
+    ]
+}
+
+/// Without arguments a table; with a count, a shell and a number of collisions one line for a comparison side by side.
 fn main() {
     let arguments: Vec<f64> = std::env::args()
         .skip(1)
         .filter_map(|argument| argument.parse().ok())
         .collect();
-    let sizes = [60, 1000, 10_000, 100_000];
-    let shell = arguments.first().copied().unwrap_or(1.6);
-    for count in sizes {
-        let (disks, size) = lattice(count, 0.6);
-        let mut random = Pcg64::seed_from_u64(1);
-        let mut velocities: Vec<[f64; 3]> = disks
-            .iter()
-            .map(|_| {
-                let [x, y] = normal_pair(&mut random);
-                [x, y, 0.0]
-            })
-            .collect();
-        let number = disks.len() as f64;
-        let mean = [0, 1].map(|axis| velocities.iter().map(|velocity| velocity[axis]).sum::<f64>() / number);
-        velocities
-            .iter_mut()
-            .for_each(|velocity| (0..2).for_each(|axis| velocity[axis] -= mean[axis]));
-        let energy: f64 = velocities
-            .iter()
-            .map(|velocity| velocity[0].powi(2) + velocity[1].powi(2))
-            .sum();
-        let scale = (2.0 * number / energy).sqrt();
-        velocities
-            .iter_mut()
-            .for_each(|velocity| (0..2).for_each(|axis| velocity[axis] *= scale));
-
-        let law = Smooth::new(1.0).expect("elastic");
-        let settings = Settings {
-            shell,
-            ..Settings::default()
-        };
-        let types = (law, Unbounded, Weightless, Periodic { size });
-        let mut engine = EventDriven::new(types, &disks, &vec![1.0; disks.len()], &velocities, settings);
-        // 6.15 collisions per disk and unit of time.
-        let mut end = 20.0 / 6.15;
-        engine.advance_to(end).expect("headway");
-        let before = engine.state().counts;
-        let start = Instant::now();
-        end += 2e6 / number / 6.15;
-        engine.advance_to(end).expect("headway");
-        let seconds = start.elapsed().as_secs_f64();
-        let after = engine.state().counts;
-        let collisions = (after.disk_impacts - before.disk_impacts) as f64;
-        let per = |count: u64| count as f64 / collisions;
-        let bodies = &engine.state().bodies;
-        let energy: f64 = bodies
-            .iter()
-            .map(|body| body.vx * body.vx + body.vy * body.vy)
-            .sum::<f64>()
-            / number
-            / 2.0;
+    let smooth = Smooth::new(1.0).expect("elastic");
+    if let [count, shell, collisions] = arguments[..] {
+        let [nanoseconds, ..] = run(smooth, Weightless, count as usize, shell, collisions);
+        println!("{nanoseconds:.1} ns a collision");
+        return;
+    }
+    // Friction cools the gas and a trace of gravity lets it fall; both change little over the run.
+    let rough = Coulomb::new(1.0, 0.01).expect("elastic along the normal");
+    for count in [60, 1000, 10_000, 100_000] {
+        let [nanoseconds, listings, stale, done, energy] = run(smooth, Weightless, count, 1.8, 2e6);
+        let [rough, ..] = run(rough, Gravity(1e-9), count, 1.8, 2e6);
         println!(
-            "{:6} disks: {:6.1} ns a collision; {:.3} listings, {:.3} stale a collision; {collisions} collisions, energy {energy:.12}",
-            disks.len(),
-            seconds / collisions * 1e9,
-            per(after.listings - before.listings),
-            per(after.stale - before.stale),
+            "{count:6} disks: {nanoseconds:6.1} ns a collision ({listings:.3} listings, {stale:.3} stale a collision, \
+             {done} collisions, energy {energy:.12}); with friction, spin and gravity {rough:6.1} ns, ratio {:.2}",
+            rough / nanoseconds
         );
     }
 }

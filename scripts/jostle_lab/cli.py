@@ -15,6 +15,7 @@ from jostle_lab.experiment import Setup
 from jostle_lab.figures import draw_all
 from jostle_lab.fmu_grains import FmuFactory, fingerprint
 from jostle_lab.loudspeaker import Loudspeaker
+from jostle_lab.peers import compare
 from jostle_lab.report import write_report
 from jostle_lab.results import Results
 from jostle_lab.run import Plan, run
@@ -145,6 +146,17 @@ def loudspeaker() -> None:
             f"  Gamma {gamma:3.1f}: {voltage:6.2f} V, {abs(response.current):5.2f} A peak, {power:6.1f} W of "
             f"{driver.rated_power:g} W, {1e3 * abs(response.displacement):.3f} mm"
         )
+
+
+@app.command()
+def peers(
+    source: Annotated[Path, typer.Argument(help="C++ source of an event-driven code, such as refed.cpp.")],
+    rounds: Annotated[int, typer.Option(min=1, max=50, help="Runs of each program, in turn.")] = 5,
+) -> None:
+    """Measure the event-driven engine beside another program on smooth elastic disks: nanoseconds a collision."""
+    typer.echo("disks   ours [ns]  theirs [ns]  ratio")
+    for disks, ours, theirs, ratio in compare(source, rounds):
+        typer.echo(f"{disks:6d} {ours:10.1f} {theirs:12.1f} {ratio:6.2f}")
 
 
 def _present(folder: Path) -> None:

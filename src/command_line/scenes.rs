@@ -1,5 +1,6 @@
 //! The scenes that the command line knows. A new scene is one line in [`with_scene`]'s table.
 
+use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
 use jostle::scene::wedge::{
     WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
@@ -45,6 +46,8 @@ macro_rules! scenes {
 scenes![
     PackingOnInput,
     PackingOnSine,
+    HardPackingOnInput,
+    HardPackingOnSine,
     WedgeMap,
     WedgeEventDrivenOnInput,
     WedgeEventDrivenOnSine,

@@ -26,6 +26,15 @@ impl FollowsInput {
         }
     }
 
+    /// A displacement \[m\] that the base does not exceed from the start of the present cubic to its end.
+    ///
+    /// The largest of the control points of the cubic in Bernstein's form, of which it is a convex combination.
+    pub fn highest(&self) -> f64 {
+        let [c0, c1, c2, c3] = self.coefficients;
+        let controls = [c0, c0 + c1 / 3.0, c0 + (2.0 * c1 + c2) / 3.0, c0 + c1 + c2 + c3];
+        controls.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Goes on from where the base is at `time` \[s\] so that after `duration` \[s\] it is where the inputs predict.
     ///
     /// Source: cubic Hermite interpolation.
@@ -79,6 +88,20 @@ mod tests {
         let end = base.motion(2.25);
         assert!((start.displacement - 0.1).abs() < 1e-15 && (start.velocity + 0.3).abs() < 1e-15);
         assert!((end.displacement - (0.2 + 0.25 * 0.7)).abs() < 1e-15 && (end.velocity - 0.7).abs() < 1e-14);
+    }
+
+    #[test]
+    fn never_exceeds_its_highest() {
+        let mut base = FollowsInput::uniform(0.0, 0.0, 3.0);
+        base.aim(0.0, 0.5, -0.2, -1.0);
+        let reached = (0..=1000)
+            .map(|i| base.motion(0.5 * f64::from(i) / 1000.0).displacement)
+            .fold(0.0, f64::max);
+        assert!(
+            reached <= base.highest() && base.highest() < 2.0 * reached,
+            "{reached} {}",
+            base.highest()
+        );
     }
 
     /// Differences of a quadratic and Simpson's rule on it are exact.

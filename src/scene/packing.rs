@@ -1,6 +1,8 @@
 //! Scene `packing`: disks in a box on a vibrating bottom, by molecular dynamics (P 2.1, 2.2, 3.2, 4.2).
 
 mod equations;
+pub mod event_driven;
+pub mod hard;
 mod rows;
 
 use serde::{Deserialize, Serialize};
@@ -75,11 +77,7 @@ impl<D: BaseDrive, I: Integrator> Packing<D, I> {
             friction: values.real("contact.friction"),
         };
         let laws = ContactLaws { normal, skin };
-        let surface_density = values.real("disk.surface_density");
-        let masses: Vec<f64> = disks
-            .iter()
-            .map(|disk| surface_density * std::f64::consts::PI * disk.radius.powi(2))
-            .collect();
+        let masses = masses_of(disks, values);
         let limits = TimeStepLimits::of(&laws, &masses, drive.frequency());
         let time_step = chosen_time_step(values.real("time_step"), &limits)?;
         let half_width = 0.5 * values.real("box.width");
@@ -123,6 +121,41 @@ impl<D: BaseDrive, I: Integrator> Packing<D, I> {
     pub fn engine(&self) -> &MolecularDynamics<I, D> {
         &self.engine
     }
+}
+
+/// The packing that the parameters tell, with a gap between neighbours of `gap` times the sum of their radii.
+fn disks_of(choice: Choice, values: &Values, gap: f64) -> Result<Vec<Disk>> {
+    let radii: Vec<f64> = rows::RADII.iter().map(|name| values.real(name)).collect();
+    let width = values.real("box.width");
+    for (name, radius) in rows::RADII.iter().zip(&radii) {
+        if 2.0 * radius * (1.0 + gap) > width {
+            return Err(Error::parameter(
+                *name,
+                format!("{radius} m"),
+                format!("at most half of box.width less gaps, {} m", 0.5 * width / (1.0 + gap)),
+                "Take smaller disks or a wider box.",
+            ));
+        }
+    }
+    let classes = radii.iter().map(|&radius| RadiusClass { radius, parts: 1 });
+    let distribution = RadiusDistribution::Classes(classes.collect());
+    let radii = distribution.sample(choice.disks as usize, values.integer("seed") as u64)?;
+    let wider: Vec<f64> = radii.iter().map(|radius| radius * (1.0 + gap)).collect();
+    let places = advancing_front(&wider, width)?;
+    Ok(places
+        .into_iter()
+        .zip(radii)
+        .map(|(place, radius)| Disk { radius, ..place })
+        .collect())
+}
+
+/// Mass of each disk \[kg\].
+fn masses_of(disks: &[Disk], values: &Values) -> Vec<f64> {
+    let surface_density = values.real("disk.surface_density");
+    disks
+        .iter()
+        .map(|disk| surface_density * std::f64::consts::PI * disk.radius.powi(2))
+        .collect()
 }
 
 /// The time step that a value of `time_step` asks for: 0 asks for the default.
@@ -205,22 +238,7 @@ impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
     }
 
     fn new(choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
-        let radii: Vec<f64> = rows::RADII.iter().map(|name| values.real(name)).collect();
-        let width = values.real("box.width");
-        for (name, radius) in rows::RADII.iter().zip(&radii) {
-            if 2.0 * radius > width {
-                return Err(Error::parameter(
-                    *name,
-                    format!("{radius} m"),
-                    format!("at most half of box.width, {} m", 0.5 * width),
-                    "Take smaller disks or a wider box.",
-                ));
-            }
-        }
-        let classes = radii.iter().map(|&radius| RadiusClass { radius, parts: 1 });
-        let distribution = RadiusDistribution::Classes(classes.collect());
-        let radii = distribution.sample(choice.disks as usize, values.integer("seed") as u64)?;
-        let disks = advancing_front(&radii, width)?;
+        let disks = disks_of(choice, values, 0.0)?;
         Self::of_disks(&disks, start_time, values)
     }
 

@@ -112,6 +112,37 @@ impl Shells {
         self.meet_neighbours(space, disk);
     }
 
+    /// Whether these can be shells of the same disks as `own`: every index exists and every list ends.
+    pub fn is_sound(&self, own: &Self) -> bool {
+        let disks = own.listings.len();
+        let known = |disk: u32| disk == NONE || (disk as usize) < disks;
+        let rows_hold = self.stride > 1
+            && self.rows.len() == disks * self.stride
+            && self.rows.chunks_exact(self.stride).all(|row| {
+                let count = row[0] as usize;
+                count < self.stride && row[1..=count].iter().all(|&disk| (disk as usize) < disks)
+            });
+        let listings_hold = self.listings.len() == disks
+            && self.listings.iter().all(|listing| {
+                known(listing.next) && known(listing.previous) && (listing.cell as usize) < own.heads.len()
+            });
+        let same_grid = (self.columns, self.lines, self.heads.len()) == (own.columns, own.lines, own.heads.len());
+        rows_hold && listings_hold && same_grid && self.heads.iter().all(|&head| known(head)) && self.chains_end()
+    }
+
+    /// Each disk is in one chain and no chain is a ring.
+    fn chains_end(&self) -> bool {
+        let mut met = 0;
+        for &head in &self.heads {
+            let mut disk = head;
+            while disk != NONE && met <= self.listings.len() {
+                met += 1;
+                disk = self.listings[disk as usize].next;
+            }
+        }
+        met == self.listings.len()
+    }
+
     fn link<S: Space>(&mut self, disk: u32) {
         let listing = &mut self.listings[disk as usize];
         let index = |axis: usize, count: usize| {

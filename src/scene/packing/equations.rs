@@ -1,6 +1,6 @@
 //! The equations of the packing for the documentation page inside the component.
 
-/// HTML fragment.
+/// HTML fragment of the soft packing.
 pub const HTML: &str = r"
 <h2>Equations</h2>
 <p>Each disk obeys Newton's equations under gravity and the forces of its contacts with disks, walls and base.
@@ -24,4 +24,23 @@ contact period unless <code>time_step</code> sets it. The trajectory lives on it
 on the communication points.</p>
 <p>Source: G. G. Peraza Mues, Spontaneous rotation in vibrated disk packings, doctoral thesis, Cinvestav M&eacute;rida,
 2018, chapters 2 and 4.</p>
+";
+
+/// HTML fragment of the hard packing.
+pub const HARD_HTML: &str = r"
+<h2>Equations</h2>
+<p>Disks fly on parabolas and meet in instantaneous impacts. An impact has the outcome of the soft contact's own: with
+<i>c</i> = &gamma;<sub>n</sub> / (2 &radic;(<i>k<sub>n</sub></i> <i>m</i>)) and the effective mass <i>m</i></p>
+<ul>
+<li>normal restitution <i>e<sub>n</sub></i> = exp(&minus;2 <i>c</i> arccos <i>c</i> / &radic;(1 &minus; <i>c</i><sup>2</sup>)),
+continued beyond <i>c</i> = 1</li>
+<li>tangential restitution <i>e<sub>t</sub></i>(|<i>u<sub>t</sub></i>/<i>u<sub>n</sub></i>|; &kappa;, &mu;, <i>c</i>) from
+the phases of stick and slip during the impact, stitched exactly and tabulated to 10<sup>&minus;6</sup></li>
+<li>impacts within <code>collision.contact_time</code> of a disk&#39;s last one lose nothing along the normal (contact-time
+model), which ends inelastic collapse</li>
+<li>moving bottom: each disk meets the base where and when it is; random phase: the bottom stays and lends each impact the
+velocity that a base of random phase has where it is first met</li>
+</ul>
+<p>Source: G. G. Peraza Mues, Spontaneous rotation in vibrated disk packings, doctoral thesis, Cinvestav M&eacute;rida,
+2018, chapters 2.3 and 4.5.</p>
 ";

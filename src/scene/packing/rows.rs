@@ -15,6 +15,53 @@ pub fn rows(choice: Choice, drive: Vec<Variable>) -> Vec<Variable> {
     rows
 }
 
+/// Value of `base.model` for the fixed bottom with a random phase (P 2.3.3); the other is the moving bottom.
+pub const RANDOM_PHASE: i64 = 1;
+
+/// Parameter of the event-driven packing on a sine.
+pub fn base_model() -> Variable {
+    const OPTIONS: &[(&str, &str)] = &[
+        (
+            "random_phase",
+            "Fixed bottom that lends each impact the velocity of a base of random phase",
+        ),
+        ("moving", "Bottom that moves"),
+    ];
+    Variable::enumeration_parameter(
+        "base.model",
+        "base_model",
+        OPTIONS,
+        2,
+        "What the bottom of the box does",
+    )
+}
+
+/// Rows of the event-driven packing: no integration, no springs, impacts instead of contacts.
+pub fn hard_rows(choice: Choice, drive: Vec<Variable>, further: Vec<Variable>) -> Vec<Variable> {
+    let absent = [
+        "time_step",
+        "chosen_time_step",
+        "largest_time_step",
+        "energy.elastic",
+        "contacts",
+    ];
+    let mut rows = parameters();
+    rows.extend(further);
+    rows.extend(drive);
+    rows.extend(calculated(choice.disks));
+    rows.extend(outputs(choice.disks));
+    rows.retain(|row| !absent.contains(&row.name.as_str()));
+    let energies = rows
+        .iter()
+        .position(|row| row.name == "disk.angle[1]")
+        .unwrap_or(rows.len());
+    rows.insert(
+        energies,
+        Variable::output("collisions", Unit::One, 1e4, "Impacts so far, of disks and on walls"),
+    );
+    rows
+}
+
 fn parameters() -> Vec<Variable> {
     let radius = |name: &str, start: f64, which: &str| {
         let description = format!("Radius of the {which} third of the disks");

@@ -1,0 +1,204 @@
+//! Scene `packing` by event-driven dynamics: hard disks in the same box, with the same variables (P 2.3, 3.3).
+//!
+//! Made for strong shaking, Gamma of 2 and more, where lasting contacts are rare (P 3.3).
+
+use serde::{Deserialize, Serialize};
+
+use crate::drive::FollowsInput;
+use crate::engine::event_driven::{Moving, NoHeadway, Partner};
+use crate::error::{Error, Result};
+use crate::scene::base_drive::BaseDrive;
+use crate::scene::variables::{OutputWriter, Values, Variable};
+use crate::scene::{Card, Choice, Scene};
+
+use super::hard::{EitherModel, HardDisks, HardRun, START_GAP};
+use super::{NAME, disks_of, equations, masses_of, rows};
+
+/// Event-driven packing whose base follows the inputs.
+pub type HardPackingOnInput = HardPacking<HardDisks<Moving<FollowsInput>>>;
+
+/// Event-driven packing on a sine, moving or in the random-phase approximation.
+pub type HardPackingOnSine = HardPacking<EitherModel>;
+
+/// Hard disks in a box, run by R.
+#[derive(Debug)]
+pub struct HardPacking<R> {
+    run: R,
+    masses: Vec<f64>,
+    radii: Vec<f64>,
+    gravity: f64,
+    report: Report,
+}
+
+/// What the last communication step reported.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Time reached \[s\].
+    pub time: f64,
+    /// Vertical force of the disks on the base \[N\], mean over the last communication step.
+    pub reaction_force: f64,
+    /// Total energy at the start \[J\].
+    pub start_energy: f64,
+}
+
+/// State of a [`HardPacking`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct HardPackingState<S> {
+    /// The engine's.
+    pub engine: S,
+    /// The last communication step.
+    pub report: Report,
+}
+
+impl<R: HardRun> HardPacking<R> {
+    /// The engine, to look at everything that is no output.
+    pub fn run(&self) -> &R {
+        &self.run
+    }
+
+    /// Kinetic and potential energy \[J\] now.
+    fn energies(&self) -> (f64, f64) {
+        let (mut kinetic, mut potential) = (0.0, 0.0);
+        for (disk, (mass, radius)) in self.masses.iter().zip(&self.radii).enumerate() {
+            let ([_, y], [vx, vy], _, angular_velocity) = self.run.seen(disk, self.report.time);
+            kinetic += 0.5 * mass * (vx * vx + vy * vy + 0.5 * (radius * angular_velocity).powi(2));
+            potential += mass * self.gravity * y;
+        }
+        (kinetic, potential)
+    }
+}
+
+fn refusal(stop: NoHeadway) -> Error {
+    let (disk, partner) = (stop.last.0 + 1, stop.last.1);
+    let partner = match partner {
+        Partner::Disk(other) => format!("disk {}", other + 1),
+        Partner::Wall(0) => "the base".into(),
+        Partner::Wall(1) => "the left wall".into(),
+        Partner::Wall(_) => "the right wall".into(),
+    };
+    Error::Step {
+        scene: NAME,
+        time: stop.time,
+        what: format!(
+            "no headway: {} impacts in {:e} s, the last of disk {disk} with {partner}",
+            stop.impacts, stop.took
+        ),
+        remedy: "Inelastic collapse? Raise collision.contact_time or lower contact.normal_damping, or use the engine \
+                 molecular-dynamics, which knows lasting contacts."
+            .into(),
+    }
+}
+
+impl<R: HardRun> Scene for HardPacking<R> {
+    type State = HardPackingState<R::State>;
+
+    fn card() -> Card {
+        let on_input = R::Base::NAME == "input";
+        Card {
+            scene: NAME,
+            identifier: if on_input {
+                "jostle_packing_event_driven"
+            } else {
+                "jostle_packing_event_driven_sine"
+            },
+            engine: "event-driven",
+            drive: R::Base::NAME,
+            description: "Packing of hard frictional disks in a box on a vibrating bottom, event-driven",
+            equations: equations::HARD_HTML,
+            disks: 1..=100_000,
+            default_disks: 60,
+            stop_time: 10.0,
+            step_size: 1e-2,
+        }
+    }
+
+    fn variables(choice: Choice) -> Vec<Variable> {
+        rows::hard_rows(choice, R::Base::variables(), R::variables())
+    }
+
+    fn new(choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
+        let disks = disks_of(choice, values, START_GAP)?;
+        let masses = masses_of(&disks, values);
+        let run = R::new(&disks, &masses, start_time, values)?;
+        let radii = disks.iter().map(|disk| disk.radius).collect();
+        let report = Report {
+            time: start_time,
+            reaction_force: 0.0,
+            start_energy: 0.0,
+        };
+        let mut packing = Self {
+            run,
+            masses,
+            radii,
+            gravity: values.real("gravity"),
+            report,
+        };
+        packing.report.start_energy = packing.energies().1;
+        Ok(packing)
+    }
+
+    fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
+        let backup = self.run.state();
+        let (from, impulse) = (self.report.time, self.run.counts().base_impulse);
+        self.run.aim(from, end_time - from, values);
+        if let Err(stop) = self.run.advance_to(end_time) {
+            self.run.restore(&backup);
+            return Err(refusal(stop));
+        }
+        let given = self.run.counts().base_impulse - impulse;
+        self.report = Report {
+            time: end_time,
+            reaction_force: -given / (end_time - from),
+            ..self.report
+        };
+        Ok(())
+    }
+
+    fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
+        let time = self.report.time;
+        let seen: Vec<_> = (0..self.radii.len()).map(|disk| self.run.seen(disk, time)).collect();
+        let count = seen.len() as f64;
+        let (kinetic, potential) = self.energies();
+        let (counts, base) = (self.run.counts(), self.run.base(time));
+        outputs.reals("disk.radius", self.radii.iter().copied());
+        outputs.real("mean_velocity", seen.iter().map(|disk| disk.1[0]).sum::<f64>() / count);
+        outputs.real(
+            "mean_angular_velocity",
+            seen.iter().map(|disk| disk.3).sum::<f64>() / count,
+        );
+        outputs.real("base.reaction_force", self.report.reaction_force);
+        outputs.real("base.position", base.displacement);
+        outputs.real("base.acceleration", base.acceleration);
+        outputs.real("energy.kinetic", kinetic);
+        outputs.real("energy.potential", potential);
+        outputs.real("energy.input", counts.energy_input);
+        outputs.real("energy.lost", counts.energy_lost);
+        let change = kinetic + potential - self.report.start_energy;
+        outputs.real("energy.residual", change - counts.energy_input + counts.energy_lost);
+        outputs.real("collisions", (counts.disk_impacts + counts.wall_impacts) as f64);
+        outputs.reals("disk.angle", seen.iter().map(|disk| disk.2));
+        outputs.reals("disk.angular_velocity", seen.iter().map(|disk| disk.3));
+        outputs.reals("disk.x", seen.iter().map(|disk| disk.0[0]));
+        outputs.reals("disk.y", seen.iter().map(|disk| disk.0[1]));
+        outputs.finish();
+    }
+
+    fn state(&self) -> Self::State {
+        HardPackingState {
+            engine: self.run.state(),
+            report: self.report,
+        }
+    }
+
+    fn restore(&mut self, state: &Self::State) -> Result<()> {
+        if !self.run.fits(&state.engine) {
+            return Err(Error::state(
+                "it is not a state of this run",
+                "Restore states of the same scene, disk count and parameters only.",
+            ));
+        }
+        self.run.restore(&state.engine);
+        self.report = state.report;
+        Ok(())
+    }
+}

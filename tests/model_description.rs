@@ -11,6 +11,10 @@ use jostle::fmi::Version;
 use jostle::fmi::bundle::Component;
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
+use jostle::scene::wedge::{
+    WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
+    WedgeMolecularDynamicsOnSine,
+};
 use jostle::scene::{Choice, Scene};
 
 fn committed<S: Scene>() {
@@ -53,4 +57,21 @@ fn hard_packing_on_input() {
 #[test]
 fn hard_packing_on_sine() {
     committed::<HardPackingOnSine>();
+}
+
+#[test]
+fn wedge_map() {
+    committed::<WedgeMap>();
+}
+
+#[test]
+fn wedge_event_driven() {
+    committed::<WedgeEventDrivenOnSine>();
+    committed::<WedgeEventDrivenOnInput>();
+}
+
+#[test]
+fn wedge_molecular_dynamics() {
+    committed::<WedgeMolecularDynamicsOnSine>();
+    committed::<WedgeMolecularDynamicsOnInput>();
 }

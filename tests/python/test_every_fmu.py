@@ -15,6 +15,11 @@ COMPONENTS = [
     ("packing", "molecular-dynamics", "sine"),
     ("packing", "event-driven", "input"),
     ("packing", "event-driven", "sine"),
+    ("wedge", "map", "sine"),
+    ("wedge", "event-driven", "input"),
+    ("wedge", "event-driven", "sine"),
+    ("wedge", "molecular-dynamics", "input"),
+    ("wedge", "molecular-dynamics", "sine"),
 ]
 
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::drive::{Drive, FollowsInput, Sine};
 use crate::error::Result;
 
-use super::variables::{Unit, Values, Variable};
+use crate::scene::{Unit, Values, Variable};
 
 /// A motion of the base that a scene can be bundled with.
 pub trait BaseDrive: Drive {

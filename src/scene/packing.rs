@@ -17,8 +17,8 @@ use crate::geometry::{Disk, Wall};
 use crate::packing::{RadiusClass, RadiusDistribution, advancing_front};
 
 use super::base_drive::BaseDrive;
-use super::variables::{OutputWriter, Values, Variable};
 use super::{Card, Choice, Scene};
+use crate::scene::{OutputWriter, Values, Variable};
 
 /// Packing whose base follows the inputs `base.displacement` and `base.velocity`.
 pub type PackingOnInput = Packing<FollowsInput, VelocityVerlet>;

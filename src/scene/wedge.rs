@@ -16,8 +16,8 @@ use crate::engine::molecular_dynamics::VelocityVerlet;
 use crate::error::{Error, Result};
 use crate::measure::BatchMeans;
 
-use super::variables::{OutputWriter, Values, Variable};
 use super::{Card, Choice, Scene};
+use crate::scene::{OutputWriter, Values, Variable};
 pub use engine::{Engine, Look};
 pub use rigid::{EventDriven, Map};
 pub use soft::Soft;

@@ -5,7 +5,7 @@ use serde::de::DeserializeOwned;
 
 use crate::drive::Motion;
 use crate::error::Result;
-use crate::scene::variables::{OutputWriter, Values, Variable};
+use crate::scene::{OutputWriter, Values, Variable};
 
 /// Disk and base at one instant; impulse and energies per mass of the disk.
 #[derive(Debug, Clone, Copy, PartialEq)]

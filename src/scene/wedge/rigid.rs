@@ -11,7 +11,7 @@ use crate::drive::{FirstHit, RandomPhase, Sine};
 use crate::engine::wedge::{DiskInWedge, Moving, Resting, Setup, Side, State, Stuck, WallMotion};
 use crate::error::{Error, Result};
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::variables::{OutputWriter, Unit, Values, Variable};
+use crate::scene::{OutputWriter, Unit, Values, Variable};
 
 use super::engine::{Energy, Engine, Look};
 use super::{NAME, rows};

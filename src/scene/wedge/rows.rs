@@ -7,7 +7,7 @@ use rand::Rng;
 use crate::engine::wedge::Frame;
 use crate::error::{Error, Result};
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::variables::{Unit, Values, Variable};
+use crate::scene::{Unit, Values, Variable};
 
 const BASE_SPEED: &str = "measure.base_velocity";
 

@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::geometry::{Disk, Wall};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::packing::{chosen_time_step, refusal_of};
-use crate::scene::variables::{OutputWriter, Unit, Values, Variable};
+use crate::scene::{OutputWriter, Unit, Values, Variable};
 
 use super::engine::{Energy, Engine, Look};
 use super::{NAME, rows};

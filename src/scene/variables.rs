@@ -1,7 +1,7 @@
 //! One row per variable: the single source of the XML, of get and set, of range checks and of the documentation page.
 //!
 //! A scene lists its rows once ([`super::Scene::variables`]); everything that shows, checks or stores a variable reads
-//! the row. Values live apart from rows, in [`Values`], so that a rollback copies numbers only.
+//! the row. Values live apart from rows, in [`super::Values`], so that a rollback copies numbers only.
 
 use std::ops::RangeInclusive;
 

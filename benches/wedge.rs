@@ -4,10 +4,10 @@
 //! communication step without an event, of saving and restoring, and simulated seconds per second of all three engines.
 //! Medians of seven runs; built for the generic x86-64 that ships.
 
+use cpu_time::ProcessTime;
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::sync::Arc;
-use std::time::Instant;
 
 use jostle::collision::{CollisionLaw, Dashpot, TabulatedDashpot, VelocityFloor};
 use jostle::contact::LinearDashpot;
@@ -29,7 +29,7 @@ const BASE: Sine = Sine {
 fn median(mut work: impl FnMut()) -> f64 {
     let mut seconds: Vec<f64> = (0..RUNS)
         .map(|_| {
-            let start = Instant::now();
+            let start = ProcessTime::now();
             work();
             start.elapsed().as_secs_f64()
         })
@@ -67,7 +67,7 @@ fn scene<S: Scene>(seconds: f64) {
     values
         .set_by_name("wedge.tilt", Value::Real(0.1745))
         .expect("a legal tilt");
-    let built = Instant::now();
+    let built = ProcessTime::now();
     let mut scene = S::new(choice, 0.0, &values).expect("a legal wedge");
     let built = built.elapsed().as_secs_f64();
     let mut time = 0.0;

@@ -10,6 +10,10 @@ use std::path::Path;
 use jostle::fmi::Version;
 use jostle::fmi::bundle::Component;
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
+use jostle::scene::wedge::{
+    WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
+    WedgeMolecularDynamicsOnSine,
+};
 use jostle::scene::{Choice, Scene};
 
 fn committed<S: Scene>() {
@@ -42,4 +46,21 @@ fn packing_on_input() {
 #[test]
 fn packing_on_sine() {
     committed::<PackingOnSine>();
+}
+
+#[test]
+fn wedge_map() {
+    committed::<WedgeMap>();
+}
+
+#[test]
+fn wedge_event_driven() {
+    committed::<WedgeEventDrivenOnSine>();
+    committed::<WedgeEventDrivenOnInput>();
+}
+
+#[test]
+fn wedge_molecular_dynamics() {
+    committed::<WedgeMolecularDynamicsOnSine>();
+    committed::<WedgeMolecularDynamicsOnInput>();
 }

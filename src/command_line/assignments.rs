@@ -45,19 +45,24 @@ fn assign(values: &mut Values, name: &str, text: &str) -> Result<()> {
     let value = match row.kind {
         Kind::Real(_) => text.parse().map(Value::Real).ok(),
         Kind::Integer { .. } | Kind::Long { .. } => text.parse().map(Value::Integer).ok(),
+        // By name or by number.
+        Kind::Enumeration { options, .. } => {
+            let by_name = (1..).zip(options).find(|(_, (name, _))| *name == text);
+            let number = by_name.map(|(number, _)| number).or_else(|| text.parse().ok());
+            number.map(Value::Integer)
+        }
     };
     let Some(value) = value else {
-        let allowed = if matches!(row.kind, Kind::Real(_)) {
-            "a number"
-        } else {
-            "a whole number of 64 bits"
+        let digits = "Write it with digits, such as 2 or 1.5e-3.";
+        let (allowed, remedy) = match row.kind {
+            Kind::Real(_) => ("a number".into(), digits),
+            Kind::Integer { .. } | Kind::Long { .. } => ("a whole number of 64 bits".into(), digits),
+            Kind::Enumeration { options, .. } => {
+                let names: Vec<&str> = options.iter().map(|(name, _)| *name).collect();
+                (format!("one of: {}", names.join(", ")), "Give an option by its name.")
+            }
         };
-        return Err(Error::parameter(
-            name,
-            text,
-            allowed,
-            "Write it with digits, such as 2 or 1.5e-3.",
-        ));
+        return Err(Error::parameter(name, text, allowed, remedy));
     };
     values.set(position, value)
 }
@@ -79,6 +84,12 @@ mod tests {
     }
 
     #[test]
+    fn options_go_by_name_or_number() {
+        assert_eq!(set(&["sense=back"]).unwrap().integer("sense"), 2);
+        assert_eq!(set(&["sense=1"]).unwrap().integer("sense"), 1);
+    }
+
+    #[test]
     fn wrong_assignments_are_told_apart() {
         let told = |text| set(&[text]).unwrap_err().to_string();
         assert!(told("rate").starts_with("--set = rate is not allowed: NAME=VALUE"));
@@ -86,6 +97,8 @@ mod tests {
         assert!(told("angle[1]=1").contains("The scene computes it"));
         assert!(told("rate=fast").starts_with("rate = fast is not allowed: a number"));
         assert!(told("seed=1.5").starts_with("seed = 1.5 is not allowed: a whole number"));
+        assert!(told("sense=up").starts_with("sense = up is not allowed: one of: ahead, back"));
+        assert!(told("sense=3").contains("one of: 1 ahead, 2 back"));
         assert!(told("rate=-1").contains("from 0 to 10"));
         assert!(told("rate=NaN").contains("from 0 to 10"));
     }

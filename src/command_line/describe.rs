@@ -16,9 +16,9 @@ use super::{Failure, Selection, text};
 pub struct Describe {
     #[command(flatten)]
     selection: Selection,
-    /// What moves the base: input (the importer) or sine.
-    #[arg(long, default_value = "input")]
-    drive: String,
+    /// What moves the base, such as input (the importer) or sine. Without it the engine's first: input where it has one.
+    #[arg(long)]
+    drive: Option<String>,
     /// One line for each variable of each disk.
     #[arg(long)]
     all: bool,
@@ -28,7 +28,7 @@ impl Describe {
     pub fn execute(self) -> Result<(), Failure> {
         let Selection { scene, engine, .. } = self.selection.clone();
         let drive = self.drive.clone();
-        let page = with_scene(&scene, engine.as_deref(), &drive, self)??;
+        let page = with_scene(&scene, engine.as_deref(), drive.as_deref(), self)??;
         match io::stdout().write_all(page.as_bytes()) {
             // The reader, such as head, has seen enough.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
@@ -96,6 +96,11 @@ fn line(row: &Variable, run: usize) -> Vec<String> {
     let (unit, range) = match &row.kind {
         Kind::Real(quantity) => (quantity.unit.name(), real_range(quantity.min, quantity.max)),
         Kind::Integer { range, .. } => ("integer", format!("{} to {}", range.start(), range.end())),
+        Kind::Enumeration { options, .. } => {
+            let option = |(number, (name, _)): (i64, &(&str, &str))| format!("{number} {name}");
+            let options: Vec<String> = (1..).zip(*options).map(option).collect();
+            ("option", options.join(", "))
+        }
         Kind::Long { range, .. } => ("64-bit integer", format!("{} to {}", range.start(), range.end())),
     };
     vec![name, causality.into(), unit.into(), range, start, description]
@@ -124,9 +129,13 @@ mod tests {
         );
         assert_eq!(
             lines[6],
+            "sense        parameter  option          1 ahead, 2 back           1      Which way the hands turn"
+        );
+        assert_eq!(
+            lines[7],
             "angle[1..3]  output     rad             any                       -      Angle of each disk"
         );
-        assert_eq!(lines.len(), 8);
+        assert_eq!(lines.len(), 9);
         let long = page::<Clock>(Choice { disks: 3 }, true);
         assert_eq!(long.lines().count(), short.lines().count() + 2);
         assert!(long.contains("angle[3]"));

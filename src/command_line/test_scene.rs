@@ -33,6 +33,13 @@ impl Scene for Clock {
             Variable::parameter("rate", Unit::RadianPerSecond, 0.0..=10.0, 1.0, "Rate of every hand"),
             Variable::parameter("limit", Unit::Second, 0.0..=1e9, 1e9, "When the clock stops"),
             Variable::long_parameter("seed", 0..=i64::MAX, 1, "Not used"),
+            Variable::enumeration_parameter(
+                "sense",
+                "sense",
+                &[("ahead", "Clockwise"), ("back", "Counter-clockwise")],
+                1,
+                "Which way the hands turn",
+            ),
         ];
         rows.extend((1..=choice.disks).map(|hand| {
             Variable::output(

@@ -98,6 +98,13 @@ fn table_row(position: usize, row: &Variable) -> String {
         Kind::Integer { range, start } | Kind::Long { range, start } => {
             ("", format!("{} to {}", range.start(), range.end()), start.to_string())
         }
+        Kind::Enumeration { options, start, .. } => {
+            let line = |(number, (name, description)): (i64, &(&str, &str))| {
+                format!("{number} {}: {}", escape(*name), escape(*description))
+            };
+            let lines: Vec<String> = (1..).zip(*options).map(line).collect();
+            ("", lines.join("<br>"), start.to_string())
+        }
     };
     format!(
         "<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>\

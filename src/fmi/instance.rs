@@ -25,9 +25,9 @@ pub enum Access {
     Real,
     /// `fmi3Int32`.
     Integer,
-    /// `fmi3Int64`.
+    /// `fmi3Int64`, which serves enumerations too.
     Long,
-    /// `fmi2Integer`, which serves both.
+    /// `fmi2Integer`, which serves all whole numbers.
     AnyInteger,
 }
 
@@ -36,7 +36,7 @@ impl Access {
         match kind {
             Kind::Real(_) => self == Self::Real,
             Kind::Integer { .. } => matches!(self, Self::Integer | Self::AnyInteger),
-            Kind::Long { .. } => matches!(self, Self::Long | Self::AnyInteger),
+            Kind::Long { .. } | Kind::Enumeration { .. } => matches!(self, Self::Long | Self::AnyInteger),
         }
     }
 }
@@ -346,6 +346,7 @@ impl<S: Scene> Instance<S> {
             Kind::Real(_) => "real (Real, Float64)",
             Kind::Integer { .. } => "32-bit integer (Integer, Int32)",
             Kind::Long { .. } => "64-bit integer (Integer, Int64)",
+            Kind::Enumeration { .. } => "enumeration (Integer, Int64)",
         };
         Err(Error::call(
             format!("{} (value reference {reference}) is of type {kind}", row.name),

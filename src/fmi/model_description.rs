@@ -5,7 +5,7 @@
 //! only, so that an importer need not look for algebraic loops. When initialisation ends they may depend on everything,
 //! which the standards say by leaving the dependencies out.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 use std::io;
 
@@ -23,6 +23,7 @@ pub fn write(card: &Card, choice: Choice, rows: &[Variable], version: Version) -
         xml::element(xml, "fmiModelDescription", &root(card, choice, rows, version), |xml| {
             xml::empty(xml, "CoSimulation", &capabilities(card, version))?;
             xml::element(xml, "UnitDefinitions", &vec![], |xml| units(xml, rows))?;
+            type_definitions(xml, rows, version)?;
             xml::element(xml, "LogCategories", &vec![], |xml| {
                 LOG_CATEGORIES.iter().try_for_each(|(name, description)| {
                     let attributes = vec![("name", (*name).into()), ("description", (*description).into())];
@@ -125,6 +126,44 @@ fn units(xml: &mut Xml, rows: &[Variable]) -> io::Result<()> {
     })
 }
 
+/// The enumerations in use; the element must not be empty.
+fn type_definitions(xml: &mut Xml, rows: &[Variable], version: Version) -> io::Result<()> {
+    let used: BTreeMap<_, _> = rows
+        .iter()
+        .filter_map(|row| match row.kind {
+            Kind::Enumeration { type_name, options, .. } => Some((type_name, options)),
+            _ => None,
+        })
+        .collect();
+    if used.is_empty() {
+        return Ok(());
+    }
+    xml::element(xml, "TypeDefinitions", &vec![], |xml| {
+        used.into_iter().try_for_each(|(name, options)| {
+            let name = vec![("name", name.into())];
+            match version {
+                Version::Two => xml::element(xml, "SimpleType", &name, |xml| {
+                    xml::element(xml, "Enumeration", &vec![], |xml| items(xml, options))
+                }),
+                Version::Three => xml::element(xml, "EnumerationType", &name, |xml| items(xml, options)),
+            }
+        })
+    })
+}
+
+fn items(xml: &mut Xml, options: &[(&str, &str)]) -> io::Result<()> {
+    (1..)
+        .zip(options)
+        .try_for_each(|(value, (name, description)): (i64, _)| {
+            let attributes = vec![
+                ("name", (*name).into()),
+                ("value", value.to_string()),
+                ("description", (*description).into()),
+            ];
+            xml::empty(xml, "Item", &attributes)
+        })
+}
+
 /// Where people think in another unit: its name and the factor from the SI unit.
 fn display_unit(unit: Unit) -> Option<(&'static str, f64)> {
     match unit {
@@ -175,6 +214,7 @@ fn variables(xml: &mut Xml, rows: &[Variable], version: Version) -> io::Result<(
             Kind::Real(_) => ("Real", "Float64"),
             Kind::Integer { .. } => ("Integer", "Int32"),
             Kind::Long { .. } => ("Integer", "Int64"),
+            Kind::Enumeration { .. } => ("Enumeration", "Enumeration"),
         };
         variable(xml, version, about, kinds, details(row, version))?;
     }
@@ -249,6 +289,16 @@ fn details(row: &Variable, version: Version) -> Attributes {
             list.push(("min", narrow(*range.start()).to_string()));
             list.push(("max", narrow(*range.end()).to_string()));
             list.extend(given.then(|| ("start", narrow(*start).to_string())));
+        }
+        Kind::Enumeration {
+            type_name,
+            options,
+            start,
+        } => {
+            list.push(("declaredType", (*type_name).into()));
+            list.push(("min", "1".into()));
+            list.push(("max", options.len().to_string()));
+            list.extend(given.then(|| ("start", start.to_string())));
         }
     }
     list

@@ -7,6 +7,7 @@ pub mod base_drive;
 pub mod packing;
 mod simulation;
 pub mod variables;
+pub mod wedge;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;

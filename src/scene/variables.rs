@@ -43,6 +43,15 @@ pub enum Kind {
         /// Start value.
         start: i64,
     },
+    /// One of a few named options, held as its number: 1 is the first.
+    Enumeration {
+        /// Name of the type, such as `base_model`; variables of one type share it and the options.
+        type_name: &'static str,
+        /// Names of the options with one sentence each. No two names are equal.
+        options: &'static [(&'static str, &'static str)],
+        /// Start value.
+        start: i64,
+    },
 }
 
 /// Unit, range and start of a real variable.
@@ -167,6 +176,26 @@ impl Variable {
         }
     }
 
+    /// A fixed parameter that takes one of `options`, each a name and a sentence; `start` is a number, the first being 1.
+    pub fn enumeration_parameter(
+        name: &str,
+        type_name: &'static str,
+        options: &'static [(&'static str, &'static str)],
+        start: i64,
+        description: &str,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            description: description.into(),
+            causality: Causality::Parameter,
+            kind: Kind::Enumeration {
+                type_name,
+                options,
+                start,
+            },
+        }
+    }
+
     /// A continuous input that starts at zero and may take any finite value.
     pub fn input(name: &str, unit: Unit, nominal: f64, description: &str) -> Self {
         Self::unbounded(name, unit, nominal, description, Causality::Input)
@@ -221,7 +250,9 @@ impl Variable {
     pub fn start(&self) -> Value {
         match &self.kind {
             Kind::Real(quantity) => Value::Real(quantity.start),
-            Kind::Integer { start, .. } | Kind::Long { start, .. } => Value::Integer(*start),
+            Kind::Integer { start, .. } | Kind::Long { start, .. } | Kind::Enumeration { start, .. } => {
+                Value::Integer(*start)
+            }
         }
     }
 
@@ -250,6 +281,21 @@ impl Variable {
                     "Give a value in this range.",
                 ))
             }
+            (Kind::Enumeration { options, .. }, Value::Integer(integer)) => {
+                if (1..=options.len() as i64).contains(&integer) {
+                    return Ok(());
+                }
+                let options = (1..)
+                    .zip(options.iter())
+                    .map(|(number, (name, _))| format!("{number} {name}"));
+                let allowed = format!("one of: {}", options.collect::<Vec<_>>().join(", "));
+                Err(Error::parameter(
+                    &self.name,
+                    integer,
+                    allowed,
+                    "Give the number of an option.",
+                ))
+            }
             (Kind::Real(_), Value::Integer(integer)) => Err(Error::parameter(
                 &self.name,
                 integer,
@@ -271,7 +317,7 @@ impl Variable {
 pub enum Value {
     /// Of a [`Kind::Real`].
     Real(f64),
-    /// Of a [`Kind::Integer`] or [`Kind::Long`].
+    /// Of any other [`Kind`].
     Integer(i64),
 }
 
@@ -394,8 +440,8 @@ impl Values {
             match (&row.kind, value) {
                 _ if given => row.check(*value)?,
                 (Kind::Real(_), Value::Real(_)) => {}
-                (Kind::Integer { .. } | Kind::Long { .. }, Value::Integer(_)) => {}
-                _ => {
+                (Kind::Integer { .. } | Kind::Long { .. } | Kind::Enumeration { .. }, Value::Integer(_)) => {}
+                (Kind::Real(_), Value::Integer(_)) | (_, Value::Real(_)) => {
                     return Err(Error::state(
                         format!("{} has another type there", row.name),
                         "Save it anew.",

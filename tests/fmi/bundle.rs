@@ -71,6 +71,11 @@ fn the_model_description_says_what_is_there() {
     assert!(three.contains(r#"<Int64 name="seed""#) && three.contains(r#"max="9223372036854775807" start="42""#));
     assert!(two.contains(r#"<Integer min="0" max="2147483647" start="42"/>"#));
     assert!(three.contains(r#"canSerializeFMUState="true""#) && two.contains(r#"canSerializeFMUstate="true""#));
+    let items = r#"<Item name="random" value="1" description="With velocities that the seed decides."/>"#;
+    assert!(two.contains(r#"<SimpleType name="start_pattern">"#) && two.contains(items));
+    assert!(three.contains(r#"<EnumerationType name="start_pattern">"#) && three.contains(items));
+    assert!(two.contains(r#"<Enumeration declaredType="start_pattern" min="1" max="2" start="1"/>"#));
+    assert!(three.contains(r#"<Enumeration name="start.pattern""#));
     for text in [&two, &three] {
         assert!(text.contains(r#"disks=3:"#));
         assert_eq!(text.matches("calculatedParameter").count(), 1);

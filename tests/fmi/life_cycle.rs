@@ -260,3 +260,27 @@ fn seeds_are_64_bits_in_three_and_32_in_two() {
         Error
     );
 }
+
+#[test]
+fn options_are_integers_in_two_and_64_bits_in_three() {
+    let pattern = reference("start.pattern");
+    let [two, three] = both();
+    let (mut small, mut large, mut narrow) = (0, 0_i64, 0);
+    unsafe {
+        assert_eq!(fmi3SetInt64(three.pointer, &pattern, 1, &2, 1), Ok);
+        assert_eq!(fmi3GetInt64(three.pointer, &pattern, 1, &mut large, 1), Ok);
+        assert_eq!(fmi2SetInteger(two.pointer, &pattern, 1, &2), Ok);
+        assert_eq!(fmi2GetInteger(two.pointer, &pattern, 1, &mut small), Ok);
+        assert_eq!((small, large), (2, 2));
+        assert_eq!(fmi3GetInt32(three.pointer, &pattern, 1, &mut narrow, 1), Error);
+        assert!(three.last_message().contains("enumeration (Integer, Int64)"));
+        for wrong in [0, 3, -1] {
+            assert_eq!(fmi3SetInt64(three.pointer, &pattern, 1, &wrong, 1), Error);
+            assert!(three.last_message().contains("one of: 1 random, 2 at_rest"));
+            assert_eq!(fmi2SetInteger(two.pointer, &pattern, 1, &(wrong as i32)), Error);
+        }
+    }
+    let [two, three] = [two, three].map(|client| client.ready(&[]));
+    assert_eq!(two.run((0, 5), 0.01), three.run((0, 5), 0.01));
+    assert_ne!(two.run((5, 6), 0.01), Client::two().ready(&[]).run((0, 1), 0.01));
+}

@@ -13,6 +13,10 @@ const TIME_STEP: f64 = 1e-3;
 /// Communication points carry the importer's rounding: a grid point that is late by this part of a step counts as reached.
 const GRID_TOLERANCE: f64 = 1e-6;
 const GRAVITY: f64 = 9.8;
+const PATTERNS: &[(&str, &str)] = &[
+    ("random", "With velocities that the seed decides."),
+    ("at_rest", "Without velocity, < 1 m/s."),
+];
 
 /// State of all oscillators.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -77,6 +81,7 @@ impl Scene for Probe {
                 "Damping of all springs.",
             ),
             Variable::long_parameter("seed", 0..=i64::MAX, 42, "Seed of the starting velocities."),
+            Variable::enumeration_parameter("start.pattern", "start_pattern", PATTERNS, 1, "How the disks start."),
             Variable::parameter(
                 "fault.panic_time",
                 Unit::Second,
@@ -127,8 +132,10 @@ impl Scene for Probe {
             velocities: vec![0.0; choice.disks as usize],
             force: 0.0,
         };
-        for velocity in &mut state.velocities {
-            *velocity = draw(&mut state.random);
+        if values.integer("start.pattern") == 1 {
+            for velocity in &mut state.velocities {
+                *velocity = draw(&mut state.random);
+            }
         }
         Ok(Self {
             start: start_time,

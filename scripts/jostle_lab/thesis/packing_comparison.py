@@ -1,0 +1,228 @@
+"""P Fig. 3.11: <omega^2> against Gamma, molecular dynamics beside event-driven dynamics, three stiffnesses."""
+
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from jostle_lab.figures import WIDTH
+from jostle_lab.thesis.packing import (
+    MOLECULAR,
+    MOVING,
+    RANDOM_PHASE,
+    Method,
+    Record,
+    angles,
+    mean_square,
+    packing_run,
+    persistent_square,
+)
+from jostle_lab.thesis.product import Product, Statement, Verdict, verdict
+from jostle_lab.thesis.runs import Laboratory, Run
+from jostle_lab.thesis.statistics import Estimate, bootstrap_mean, bootstrap_ratio
+
+STIFFNESSES = {1e4: ("o", "#1f5fa8"), 1e5: ("^", "#d07a1f"), 1e6: ("s", "#2e7d4f")}
+"""Symbols of the thesis' caption."""
+METHODS: dict[Method, dict[str, Any]] = {
+    MOLECULAR: {"linestyle": "-"},
+    RANDOM_PHASE: {"linestyle": "--", "mfc": "white"},
+    MOVING: {"linestyle": ":", "mfc": "white", "alpha": 0.75},
+}
+
+
+@dataclass(frozen=True)
+class Scope:
+    """How much is run."""
+
+    gammas: tuple[float, ...]
+    packings: int
+    record: Record
+
+
+QUICK = Scope((2.0, 5.0, 12.0), 2, Record(4.0, 8.0, 2.0))
+FULL = Scope((2.0, 3.0, 5.0, 9.0, 15.0, 25.0), 5, Record(10.0, 30.0, 5.0))
+
+Key = tuple[Method, float, float]
+"""Method, k_n [N/m], Gamma."""
+
+
+def make(laboratory: Laboratory, quick: bool, seeds: int | None = None) -> Product:
+    """Run every packing by every method and compare."""
+    scope = QUICK if quick else FULL
+    numbers = range(1, (seeds or scope.packings) + 1)
+    keys: list[Key] = list(product(METHODS, STIFFNESSES, scope.gammas))
+    runs: dict[tuple[Key, int], Run] = {
+        (key, seed): packing_run(key[0], key[2], key[1], seed, scope.record) for seed in numbers for key in keys
+    }
+    tables = laboratory.run(list(runs.values()), "figure 3.11")
+    squares: dict[Key, list[float]] = {key: [] for key in keys}
+    lasting: dict[Key, list[float]] = {key: [] for key in keys}
+    for (key, _), run in runs.items():
+        paths = angles(tables[run], scope.record)
+        squares[key].append(mean_square(paths, scope.record.sample))
+        lasting[key].append(persistent_square(paths, scope.record.sample))
+    record = scope.record
+    return Product(
+        "Figure 3.11: mean squared angular velocity, molecular dynamics and event-driven",
+        _rows(squares, lasting),
+        draw(squares, scope),
+        statements(squares, lasting, scope),
+        [
+            f"60 disks, 80 Hz, kappa = 0.77, gamma_n = 0.1 kg/s, mu = 0.1, {len(numbers)} packings (seeds 1 to "
+            f"{len(numbers)}; the thesis has 100), {record.settling:g} s unobserved, then {record.observed:g} s; errors "
+            "by bootstrap over packings, ratios packing by packing",
+            "lasting part: product of the mean angular velocities of the two halves of the record, free of the random "
+            "walk of the angles that every finite record adds to <omega^2>",
+            "the thesis' ED is the fixed bottom with a random phase; the moving base needs no such assumption",
+        ],
+    )
+
+
+def _rows(squares: dict[Key, list[float]], lasting: dict[Key, list[float]]) -> list[dict[str, Any]]:
+    rows = []
+    for key in squares:
+        method, stiffness, gamma = key
+        mean, last = bootstrap_mean(squares[key]), bootstrap_mean(lasting[key])
+        ratio = bootstrap_ratio(squares[key], squares[MOLECULAR, stiffness, gamma])
+        rows.append(
+            {
+                "method": method.name,
+                "normal_stiffness": stiffness,
+                "gamma": gamma,
+                "mean_square_rpm": mean.mean,
+                "error": mean.error,
+                "lasting_rpm": last.mean,
+                "lasting_error": last.error,
+                "ratio_to_md": ratio.mean,
+                "ratio_error": ratio.error,
+                "packings": len(squares[key]),
+            }
+        )
+    return rows
+
+
+def draw(squares: dict[Key, list[float]], scope: Scope) -> Figure:
+    """Linear and logarithmic, as in the thesis, and the ratio below."""
+    figure = Figure(figsize=(WIDTH, 6.4), layout="constrained")
+    mosaic = figure.subplot_mosaic([["linear", "log"], ["ratio", "ratio"]], height_ratios=[1.5, 1.0])
+    shift = {stiffness: 1.0 + 0.012 * (i - 1) for i, stiffness in enumerate(STIFFNESSES)}
+    for method, style in METHODS.items():
+        for stiffness, (marker, colour) in STIFFNESSES.items():
+            points = [bootstrap_mean(squares[method, stiffness, gamma]) for gamma in scope.gammas]
+            x = np.array(scope.gammas) * shift[stiffness]
+            line = {"marker": marker, "color": colour, "ms": 4, "lw": 1.0, "elinewidth": 0.7, "capsize": 1.5, **style}
+            y, e = [p.mean for p in points], [p.error for p in points]
+            label = f"{method.name}, $k_n$ = {_power(stiffness)} N/m"
+            for name in ("linear", "log"):
+                mosaic[name].errorbar(x, y, yerr=e, label=label, **line)
+            if method is MOLECULAR:
+                continue
+            ratios = [
+                bootstrap_ratio(squares[method, stiffness, gamma], squares[MOLECULAR, stiffness, gamma])
+                for gamma in scope.gammas
+            ]
+            mosaic["ratio"].errorbar(x, [r.mean for r in ratios], yerr=[r.error for r in ratios], label=label, **line)
+    for name in ("log", "ratio"):
+        mosaic[name].set_xscale("log")
+        mosaic[name].set_xticks(list(scope.gammas), [f"{g:g}" for g in scope.gammas])
+        mosaic[name].minorticks_off()
+    mosaic["log"].set_yscale("log")
+    mosaic["ratio"].set_yscale("log")
+    ticks = (0.5, 0.7, 1.0, 1.5, 2.0, 3.0)
+    mosaic["ratio"].set_yticks(ticks, [f"{t:g}" for t in ticks])
+    mosaic["ratio"].minorticks_off()
+    mosaic["ratio"].axhline(1.0, color="0.4", lw=0.8, zorder=0)
+    mosaic["ratio"].set_ylabel("event-driven / MD")
+    for panel in mosaic.values():
+        panel.set_xlabel(r"$\Gamma$")
+    for name in ("linear", "log"):
+        mosaic[name].set_ylabel(r"$\langle\bar\omega^2\rangle$ [RPM$^2$]")
+    mosaic["linear"].set_ylim(0.0, None)
+    handles, labels = mosaic["linear"].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3)
+    return figure
+
+
+def _power(stiffness: float) -> str:
+    return rf"$10^{{{round(np.log10(stiffness))}}}$"
+
+
+def overall(values: dict[Key, list[float]], method: Method, stiffness: float, gammas: tuple[float, ...]) -> Estimate:
+    """Geometric mean over Gamma of event-driven over MD, error by drawing packings."""
+    ratios = [bootstrap_ratio(values[method, stiffness, g], values[MOLECULAR, stiffness, g]) for g in gammas]
+    logs = np.log([r.mean for r in ratios])
+    errors = np.array([r.error / r.mean for r in ratios])
+    mean = float(np.exp(logs.mean()))
+    return Estimate(mean, mean * float(np.sqrt(np.sum(errors**2))) / len(errors))
+
+
+def statements(squares: dict[Key, list[float]], lasting: dict[Key, list[float]], scope: Scope) -> list[Statement]:
+    """The statements of P 3.3 on this figure."""
+    found = []
+    for method in (RANDOM_PHASE, MOVING):
+        ratios = {k: overall(squares, method, k, scope.gammas) for k in STIFFNESSES}
+        distance = [abs(np.log(r.mean)) for r in ratios.values()]
+        spread = {
+            k: float(
+                np.sqrt(
+                    np.mean(
+                        [
+                            np.log(np.mean(squares[method, k, g]) / np.mean(squares[MOLECULAR, k, g])) ** 2
+                            for g in scope.gammas
+                        ]
+                    )
+                )
+            )
+            for k in STIFFNESSES
+        }
+        rms = list(spread.values())
+        text = "; ".join(f"k_n = {k:.0e}: {r}, rms of ln {spread[k]:.2f}" for k, r in ratios.items())
+        better = rms[0] > rms[1] > rms[2]
+        partly = distance[-1] < distance[0] or rms[-1] < rms[0]
+        found.append(
+            Statement(
+                "Fig. 3.11",
+                "the coincidence of MD and ED gets better for increasing stiffness",
+                f"{method.name} / MD, geometric mean over Gamma: {text}",
+                Verdict.AGREES if better else (Verdict.PARTLY if partly else Verdict.DISAGREES),
+            )
+        )
+        worst = max(
+            (abs(np.log(np.mean(squares[method, k, g]) / np.mean(squares[MOLECULAR, k, g]))), k, g)
+            for k in STIFFNESSES
+            for g in scope.gammas
+        )
+        found.append(
+            Statement(
+                "3.3",
+                "good degree of coincidence for Gamma > 2",
+                f"{method.name}: worst factor {np.exp(worst[0]):.2f} at k_n = {worst[1]:.0e}, Gamma = {worst[2]:g}; at "
+                f"k_n = 1e6 the worst is {_worst(squares, method, 1e6, scope):.2f}",
+                verdict(_worst(squares, method, 1e6, scope) < 1.5),
+            )
+        )
+    for k in STIFFNESSES:
+        series = [float(np.mean(squares[MOLECULAR, k, g])) for g in scope.gammas]
+        top = scope.gammas[int(np.argmax(series))]
+        last = ", ".join(
+            f"{np.mean(lasting[MOLECULAR, k, g]) / np.mean(squares[MOLECULAR, k, g]):.2f}" for g in scope.gammas
+        )
+        found.append(
+            Statement(
+                "3.2",
+                "<omega^2> grows with Gamma up to about 10, then falls",
+                f"MD, k_n = {k:.0e}: largest at Gamma = {top:g}; lasting share over Gamma: {last}",
+                verdict(5.0 <= top <= 18.0),
+            )
+        )
+    return found
+
+
+def _worst(squares: dict[Key, list[float]], method: Method, stiffness: float, scope: Scope) -> float:
+    logs = [
+        abs(np.log(np.mean(squares[method, stiffness, g]) / np.mean(squares[MOLECULAR, stiffness, g])))
+        for g in scope.gammas
+    ]
+    return float(np.exp(max(logs)))

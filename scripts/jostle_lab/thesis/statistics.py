@@ -22,6 +22,7 @@ class Estimate:
     error: float
 
     def __str__(self) -> str:
+        """Mean and error as for a table."""
         return f"{self.mean:.3g} +- {self.error:.1g}"
 
 
@@ -81,10 +82,3 @@ def _crossing(x: Sequence[float], estimates: Sequence[Estimate], first: int, las
     share = a.mean / height
     error = abs(span / height) * math.hypot((1.0 - share) * a.error, share * b.error)
     return Estimate(x[first] + share * span, error)
-
-
-def peak(x: Sequence[float], estimates: Sequence[Estimate]) -> tuple[Estimate, Estimate]:
-    """Place and height of the largest point, its place to half the distance to the neighbours."""
-    index = int(np.argmax([point.mean for point in estimates]))
-    gaps = [abs(x[index] - x[other]) for other in (index - 1, index + 1) if 0 <= other < len(x)]
-    return Estimate(x[index], 0.5 * max(gaps)), estimates[index]

@@ -5,9 +5,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 
-from jostle_lab.thesis.runs import Laboratory, Run
+from jostle_lab.thesis.runs import Laboratory, Run, Table
 from jostle_lab.thesis.statistics import Estimate, chi_square, pooled
 
 GRAVITY = 9.81
@@ -17,7 +18,7 @@ NORMAL_STIFFNESS, NORMAL_DAMPING, MASS = 4.5e6, 9.84, 4.5e-3
 UNOBSERVED = 0.1
 """Fraction of a run that is left out at its start."""
 
-TILTS = (0.0, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0, 16.0, 17.0, 18.0)
+TILTS: tuple[float, ...] = (0.0, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0, 16.0, 17.0, 18.0)
 TILTS += (19.0, 20.0, 21.0, 22.0, 23.0, 24.0, 25.0, 26.0, 27.0, 28.0, 28.5, 29.0, 29.5)
 QUICK_TILTS = (0.0, 4.0, 8.0, 12.0, 14.0, 16.0, 18.0, 20.0, 22.0, 24.0, 26.0, 28.0, 29.0)
 """Tilts [degrees] of a wedge of 120 degrees, whose critical tilt is 30."""
@@ -100,8 +101,8 @@ class Effort:
     def notes(self) -> list[str]:
         """For the page of statements."""
         return [
-            f"each point: {self.seeds} run(s), seeds 1 to {self.seeds}, of {self.duration:g} A omega_b / g, the first "
-            f"{100 * UNOBSERVED:g} % unobserved; error bars: standard error by batch means, one sigma"
+            f"each point: {self.seeds} seeds (1 to {self.seeds} unless said otherwise), each of {self.duration:g} "
+            f"A omega_b / g, the first {100 * UNOBSERVED:g} % unobserved; error bars: standard error by batch means"
         ]
 
 
@@ -170,6 +171,14 @@ def curves(
     return found
 
 
+def other_law(
+    laboratory: Laboratory, law: str, wedge: Wedge, duration: float, seed: int, tilts: Sequence[float]
+) -> Table:
+    """The map with a law that no scene has, `rigid` or `recipe` of the example wedge_other_laws; rows by tilt."""
+    numbers = (wedge.friction, wedge.stiffness_ratio, wedge.aperture, duration * wedge.time)
+    return laboratory.example("wedge_other_laws", law, *map(repr, numbers), str(seed), *map(repr, tilts))
+
+
 def draw_curve(panel: Axes, x: Sequence[float], points: Sequence[Estimate], label: str, **style: Any) -> None:
     """A curve with error bars."""
     line = {"ms": 4, "lw": 0.9, "elinewidth": 0.7, "capsize": 1.5, "mew": 0.8, **style}
@@ -183,3 +192,8 @@ def tilt_axes(panel: Axes, critical: float | None = 30.0) -> None:
         panel.set_xlim(-0.02 * critical, critical)
         panel.set_xlabel(r"tilt $\theta_T$ [degrees]")
     panel.set_ylabel(r"$R\bar\omega/A\omega_b$")
+
+
+def shades(count: int) -> list[Any]:
+    """Colours from dark to light for an ordered family of curves, told apart also in grey."""
+    return [colormaps["viridis"](0.88 * i / max(count - 1, 1)) for i in range(count)]

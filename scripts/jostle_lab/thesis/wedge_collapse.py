@@ -26,7 +26,7 @@ def make(laboratory: Laboratory, quick: bool, seeds: int | None = None) -> Produ
     rows = [row for curve in found for row in curve.rows()]
     notes = [
         "map with a random phase; theta_W = 120 degrees, mu = 0.1, e_n = 0.9, kappa = 0.773, g = 9.81 m/s2",
-        "each pair has seeds of its own: the pairs are independent, so that their scatter must be that of the error bars",
+        "pair number i (from 0) has the seeds 100 i + 1, 100 i + 2, ...: all pairs are independent",
         *chosen.notes(),
     ]
     return Product("Figure 6.4: collapse of nine pairs (Gamma, omega_b)", rows, draw(found), statements(found), notes)
@@ -54,8 +54,9 @@ def draw(found: list[Curve]) -> Figure:
     tilt_axes(upper)
     tilt_axes(lower)
     upper.set_xlabel("")
-    lower.set_ylabel(r"difference from mean $\times 10^3$")
-    upper.legend(ncols=1)
+    lower.set_ylabel(r"difference [$10^{-3}$]")
+    handles, labels = upper.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3)
     return figure
 
 

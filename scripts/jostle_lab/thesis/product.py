@@ -59,9 +59,12 @@ def write(product: Product, folder: Path, command: str, footer: str) -> list[Pat
 
 
 def _page(product: Product, command: str, footer: str) -> str:
-    rows = [
-        f"| {s.place} | {s.printed} | {s.found.replace('|', chr(92) + '|')} | {s.verdict} |" for s in product.statements
-    ]
+    rows = [f"| {s.place} | {_cell(s.printed)} | {_cell(s.found)} | {s.verdict} |" for s in product.statements]
     notes = [f"- {note}" for note in product.notes]
     header = ["| where | printed | ours | |", "|:--|:--|:--|:--|"]
     return "\n".join([f"# {product.title}", "", f"`{command}`", "", *header, *rows, "", *notes, f"- {footer}", ""])
+
+
+def _cell(text: str) -> str:
+    """Text in a cell of a table."""
+    return text.replace("|", "\\|")

@@ -52,11 +52,14 @@ def bootstrap_ratio(above: Sequence[float], below: Sequence[float]) -> Estimate:
     return Estimate(ratio, float((resampled[:, 0] / resampled[:, 1]).std(ddof=1)))
 
 
+def draws(count: int) -> NDArray[np.int64]:
+    """Indices of packings drawn with replacement, shape (RESAMPLES, count); the same at each call."""
+    return np.random.default_rng(RESAMPLES).integers(0, count, size=(RESAMPLES, count))
+
+
 def _resampled(rows: Numbers) -> Numbers:
     """Means of resampled rows, shape (RESAMPLES, columns)."""
-    generator = np.random.default_rng(RESAMPLES)
-    chosen = generator.integers(0, len(rows), size=(RESAMPLES, len(rows)))
-    return np.asarray(rows[chosen].mean(axis=1))
+    return np.asarray(rows[draws(len(rows))].mean(axis=1))
 
 
 def zero_crossings(x: Sequence[float], estimates: Sequence[Estimate], significance: float = 3.0) -> list[Estimate]:

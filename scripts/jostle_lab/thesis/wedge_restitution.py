@@ -83,7 +83,7 @@ def statements(found: Curves) -> list[Statement]:
 
 
 def _exponents(found: Curves) -> list[tuple[float, Estimate]]:
-    """Logarithm of the ratio of velocities over ln of the ratio of restitutions, where both are clear and of one sign."""
+    """Exponents b of omega ~ e_n^b by tilt, where both velocities are clear and of one sign."""
     span = float(np.log(0.9 / 0.7))
     exponents = []
     for tilt, a, b in zip(found[0.7].tilts, found[0.7].points, found[0.9].points, strict=True):

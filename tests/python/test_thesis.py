@@ -44,6 +44,15 @@ def test_pooled_error_shrinks_with_the_number_of_runs() -> None:
     assert estimate.error == pytest.approx(0.1)
 
 
+def test_estimates_are_shown_to_the_first_digits_of_the_error() -> None:
+    shown = [
+        str(Estimate(*pair))
+        for pair in ((1.0042, 0.052), (0.05, 0.103), (-0.31, 0.0021), (159.2, 23.0), (1.2345e-6, 2e-7))
+    ]
+    assert shown == ["1.00 +- 0.05", "0.05 +- 0.10", "-0.310 +- 0.002", "160 +- 20", "1.23e-06 +- 2e-07"]
+    assert str(Estimate(2.0, 0.0)) == "2 +- 0"
+
+
 def test_chi_square_of_noise_is_one_and_of_a_shift_is_not() -> None:
     noise = np.random.default_rng(3).normal(0.0, 0.1, 2000)
     ratio, p_value = chi_square(noise, [0.1] * 2000)

@@ -56,7 +56,9 @@ def make_figure(number: str, laboratory: Laboratory, results: Path, quick: bool,
 
 def figure(
     numbers: Annotated[list[str], typer.Argument(help=f"Figures of the thesis, or all: {', '.join(MODULES)}.")],
-    quick: Annotated[bool, typer.Option("--quick", help="Fewer points and shorter runs: about a minute each.")] = False,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Fewer points and shorter runs: at most about a minute each.")
+    ] = False,
     results: Annotated[Path, typer.Option(help="Folder that gets a folder for each figure.")] = Path("results"),
     seeds: Annotated[
         int | None, typer.Option(min=2, max=1000, help="Packings or seeds of each point; each figure has its own.")
@@ -74,6 +76,12 @@ def figure(
     if unknown:
         raise LabError(f"No figure {', '.join(unknown)}. There are {', '.join(MODULES)}, and all.")
     laboratory = Laboratory(program, results / "runs", processes, progress)
+    failures = []
     for number in chosen:
-        for path in make_figure(number, laboratory, results, quick, seeds):
-            typer.echo(path)
+        try:
+            for path in make_figure(number, laboratory, results, quick, seeds):
+                typer.echo(path)
+        except LabError as error:
+            failures.append(f"figure {number}: {error}")
+    if failures:
+        raise LabError("\n".join(failures))

@@ -63,10 +63,14 @@ def angles(table: Table, record: Record) -> NDArray[np.float64]:
     return np.column_stack([table[f"disk.angle[{disk}]"][seen] for disk in range(1, DISKS + 1)])
 
 
+def mean_velocities(paths: NDArray[np.float64], sample: float) -> NDArray[np.float64]:
+    """Mean angular velocity of each disk [RPM]: whole excursion over time."""
+    return np.asarray((paths[-1] - paths[0]) / ((len(paths) - 1) * sample) / RPM)
+
+
 def mean_square(paths: NDArray[np.float64], sample: float) -> float:
     """<omega^2> [RPM^2] as in the thesis: whole excursion over time, squared, mean over disks."""
-    omega = (paths[-1] - paths[0]) / ((len(paths) - 1) * sample)
-    return float(np.mean((omega / RPM) ** 2))
+    return float(np.mean(mean_velocities(paths, sample) ** 2))
 
 
 def persistent_square(paths: NDArray[np.float64], sample: float) -> float:

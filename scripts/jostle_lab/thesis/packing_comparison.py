@@ -16,6 +16,7 @@ from jostle_lab.thesis.packing import (
     Record,
     angles,
     mean_square,
+    mean_velocities,
     packing_run,
     persistent_square,
 )
@@ -59,8 +60,10 @@ def make(laboratory: Laboratory, quick: bool, seeds: int | None = None) -> Produ
     tables = laboratory.run(list(runs.values()), "figure 3.11")
     squares: dict[Key, list[float]] = {key: [] for key in keys}
     lasting: dict[Key, list[float]] = {key: [] for key in keys}
-    for (key, _), run in runs.items():
+    velocities: dict[tuple[Key, int], Numbers] = {}
+    for (key, seed), run in runs.items():
         paths = angles(tables[run], scope.record)
+        velocities[key, seed] = mean_velocities(paths, scope.record.sample)
         squares[key].append(mean_square(paths, scope.record.sample))
         lasting[key].append(persistent_square(paths, scope.record.sample))
     record = scope.record
@@ -68,7 +71,7 @@ def make(laboratory: Laboratory, quick: bool, seeds: int | None = None) -> Produ
         "Figure 3.11: mean squared angular velocity, molecular dynamics and event-driven",
         _rows(squares, lasting),
         draw(squares, scope),
-        statements(squares, lasting, scope),
+        [*statements(squares, lasting, scope), disk_by_disk(velocities, scope)],
         [
             f"60 disks, 80 Hz, kappa = 0.77, gamma_n = 0.1 kg/s, mu = 0.1; {len(numbers)} packings, seeds 1 to "
             f"{len(numbers)} (the thesis has 100); {record.settling:g} s unobserved, then {record.observed:g} s",
@@ -215,6 +218,43 @@ def _coincidence(squares: dict[Key, list[float]], method: Method, scope: Scope) 
             verdict(max(f for f, _ in worst.values()) < 1.6),
         ),
     ]
+
+
+def disk_by_disk(velocities: dict[tuple[Key, int], Numbers], scope: Scope) -> Statement:
+    """Correlation of the same disks' velocities by two methods, for Gamma below the onset of diffusion."""
+    gammas = [g for g in scope.gammas if g <= 15.0]
+    seeds = sorted({seed for _, seed in velocities})
+
+    def alike(one: Method, other: Method, stiffness: float) -> Estimate:
+        return bootstrap_mean(
+            [
+                float(
+                    np.mean(
+                        [
+                            np.corrcoef(velocities[(one, stiffness, g), seed], velocities[(other, stiffness, g), seed])[
+                                0, 1
+                            ]
+                            for g in gammas
+                        ]
+                    )
+                )
+                for seed in seeds
+            ]
+        )
+
+    pairs = ((MOLECULAR, RANDOM_PHASE), (MOLECULAR, MOVING), (RANDOM_PHASE, MOVING))
+    text = "; ".join(
+        f"{one.name} with {other.name}: " + ", ".join(f"{k:.0e}: {alike(one, other, k)}" for k in STIFFNESSES)
+        for one, other in pairs
+    )
+    softest, stiffest = (alike(MOLECULAR, MOVING, k) for k in (1e4, 1e6))
+    clear = stiffest.mean - softest.mean > 2.0 * float(np.hypot(stiffest.error, softest.error))
+    return Statement(
+        "(not printed)",
+        "do the same disks turn the same way in MD and ED, the more the stiffer?",
+        f"correlation of the disks' mean velocities, mean over Gamma up to 15, by k_n: {text}",
+        Verdict.AGREES if clear else Verdict.OPEN,
+    )
 
 
 def _worst(squares: dict[Key, list[float]], method: Method, stiffness: float, scope: Scope) -> tuple[float, float]:

@@ -22,8 +22,15 @@ class Estimate:
     error: float
 
     def __str__(self) -> str:
-        """Mean and error as for a table."""
-        return f"{self.mean:.3g} +- {self.error:.1g}"
+        """Mean and error, rounded to one digit of the error, to two if the first one is 1."""
+        if not (self.error > 0.0 and math.isfinite(self.error)):
+            return f"{self.mean:.3g} +- {self.error:g}"
+        decimals = -math.floor(math.log10(0.5 * self.error))
+        if decimals > 4:
+            return f"{self.mean:.2e} +- {self.error:.0e}"
+        unit = 10.0**-decimals
+        shown = max(decimals, 0)
+        return f"{round(self.mean / unit) * unit:.{shown}f} +- {round(self.error / unit) * unit:.{shown}f}"
 
 
 def pooled(means: Sequence[float], errors: Sequence[float]) -> Estimate:

@@ -15,7 +15,7 @@ FILLED = (2.0,)
 COLOURS = {0.9: "0.55", 1.0: "0.3", 1.2: "#7a4fa0", 1.5: "#1f5fa8", 2.0: "#2e7d4f", 3.0: "#c0272d"}
 TILTS = (0.0, 4.0, 8.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0, 22.0, 25.0, 28.0)
 QUICK_TILTS = (0.0, 6.0, 10.0, 14.0, 20.0, 26.0)
-QUICK_SECONDS, SECONDS = 40.0, 300.0 / (1.0 - UNOBSERVED)
+QUICK_SECONDS, SECONDS = 60.0, 300.0 / (1.0 - UNOBSERVED)
 """Of each run; the thesis observes 300 s."""
 
 

@@ -13,7 +13,7 @@ from jostle_lab.thesis.wedge_dynamics import molecular_curves
 
 GAMMAS = {1.2: ("+", "#7a4fa0"), 1.5: ("x", "#1f5fa8"), 2.0: ("s", "#2e7d4f"), 3.0: ("s", "#c0272d")}
 """Gamma, the symbols of the thesis' caption, and colours."""
-RESTITUTION = 0.8993
+RESTITUTION = 0.89916
 """e_n of the molecular dynamics."""
 
 
@@ -24,7 +24,7 @@ def make(laboratory: Laboratory, quick: bool, seeds: int | None = None) -> Produ
     tilts = tuple(sorted({*(QUICK_TILTS if quick else TILTS), *soft[1.2].tilts}))
     wedge = Wedge(restitution=RESTITUTION)
     the_map = curves(laboratory, "figure 6.5, map", {wedge: tilts}, chosen)[wedge]
-    moving = _moving(laboratory, soft[1.2].tilts, Effort(0.2 * chosen.duration, chosen.seeds))
+    moving = _moving(laboratory, tilts, Effort(0.2 * chosen.duration, chosen.seeds))
     rows = [row for curve in (the_map, *moving.values(), *soft.values()) for row in curve.rows()]
     notes = [note, f"map and moving wedge with e_n = {RESTITUTION}; the moving wedge for a fifth of the map's time"]
     title = "Figure 6.5: molecular dynamics and event-driven, scaled"
@@ -47,10 +47,18 @@ def draw(the_map: Curve, moving: dict[float, Curve], soft: dict[float, Curve]) -
     draw_curve(upper, the_map.tilts, the_map.points, "map", marker="o", color="0.1", mfc="white", lw=2.0, zorder=1)
     for gamma, (marker, colour) in GAMMAS.items():
         fill = colour if gamma == 2.0 else "white"
-        style = {"marker": marker, "color": colour, "mfc": fill, "linestyle": "none", "ms": 5}
+        style = {
+            "marker": marker,
+            "color": colour,
+            "mfc": fill,
+            "linestyle": "none",
+            "ms": 5.5,
+            "mew": 1.1,
+            "capsize": 0,
+        }
         upper_label = rf"MD, $\Gamma$ = {gamma:g}"
         draw_curve(upper, soft[gamma].tilts, soft[gamma].points, upper_label, **style, zorder=3)
-        line = {"marker": None, "color": colour, "linestyle": "-", "lw": 0.9}
+        line = {"marker": None, "color": colour, "linestyle": "-", "lw": 0.9, "capsize": 0}
         draw_curve(upper, moving[gamma].tilts, moving[gamma].points, rf"moving ED, $\Gamma$ = {gamma:g}", **line)
         draw_curve(lower, soft[gamma].tilts, _less(soft[gamma], the_map), "", **style)
         draw_curve(lower, moving[gamma].tilts, _less(moving[gamma], the_map), "", **line)
@@ -58,7 +66,8 @@ def draw(the_map: Curve, moving: dict[float, Curve], soft: dict[float, Curve]) -
     tilt_axes(lower)
     upper.set_xlabel("")
     lower.set_ylabel("less the map")
-    upper.legend(ncols=2)
+    handles, labels = upper.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3)
     return figure
 
 

@@ -24,7 +24,7 @@ from jostle_lab.thesis.wedge import (
 FRICTIONS = {0.001: "+", 0.005: "x", 0.01: (8, 2, 0), 0.03: "s", 0.05: "s", 0.1: "o", 0.15: "o", 0.3: "^", 1.0: "^"}
 """mu and the symbols of the thesis' caption."""
 FILLED = (0.05, 0.15, 1.0)
-NEAR_CRITICAL = (29.7, 29.85)
+NEAR_CRITICAL = (29.25, 29.7, 29.85, 29.92)
 """Tilts [degrees] where the peak of small mu is."""
 
 Curves = dict[float, Curve]
@@ -34,7 +34,7 @@ def make(laboratory: Laboratory, quick: bool, seeds: int | None = None) -> Produ
     """Run all friction coefficients."""
     chosen = effort(quick, seeds)
     wedges = {mu: Wedge(friction=mu) for mu in FRICTIONS}
-    tilts = (*QUICK_TILTS, 29.5) if quick else (*TILTS, *NEAR_CRITICAL)
+    tilts = tuple(sorted((*(QUICK_TILTS if quick else TILTS), *NEAR_CRITICAL)))
     by_wedge = curves(laboratory, "figure 6.6", dict.fromkeys(wedges.values(), tilts), chosen)
     found = {mu: by_wedge[wedge] for mu, wedge in wedges.items()}
     rows = [row for curve in found.values() for row in curve.rows()]

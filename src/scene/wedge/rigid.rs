@@ -11,7 +11,7 @@ use crate::drive::{FirstHit, RandomPhase, Sine};
 use crate::engine::wedge::{DiskInWedge, Moving, Resting, Setup, Side, State, Stuck, WallMotion};
 use crate::error::{Error, Result};
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::{OutputWriter, Unit, Values, Variable};
+use crate::scene::{Kind, OutputWriter, Unit, Values, Variable};
 
 use super::engine::{Energy, Engine, Look};
 use super::{NAME, rows};
@@ -149,10 +149,15 @@ impl Engine for Map {
         vec![restitution()]
     }
 
-    /// The phase is random.
+    /// The phase is random. Any amplitude goes: the walls rest, and only A omega_b counts.
     fn drive() -> Vec<Variable> {
         let mut rows = Sine::variables();
         rows.retain(|row| row.name != "drive.phase");
+        for row in &mut rows {
+            if let ("drive.amplitude", Kind::Real(quantity)) = (row.name.as_str(), &mut row.kind) {
+                quantity.max = 1e4;
+            }
+        }
         rows
     }
 

@@ -11,6 +11,7 @@ use jostle::fmi::Version;
 use jostle::fmi::bundle::Component;
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
+use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
 use jostle::scene::{Choice, Scene};
 
 fn committed<S: Scene>() {
@@ -53,4 +54,14 @@ fn hard_packing_on_input() {
 #[test]
 fn hard_packing_on_sine() {
     committed::<HardPackingOnSine>();
+}
+
+#[test]
+fn ratchet_on_input() {
+    committed::<RatchetOnInput>();
+}
+
+#[test]
+fn ratchet_on_sine() {
+    committed::<RatchetOnSine>();
 }

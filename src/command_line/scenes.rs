@@ -2,6 +2,7 @@
 
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
+use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
 use jostle::scene::{Card, Scene};
 use jostle::{Error, Result};
 
@@ -39,7 +40,14 @@ macro_rules! scenes {
     };
 }
 
-scenes![PackingOnInput, PackingOnSine, HardPackingOnInput, HardPackingOnSine,];
+scenes![
+    PackingOnInput,
+    PackingOnSine,
+    HardPackingOnInput,
+    HardPackingOnSine,
+    RatchetOnInput,
+    RatchetOnSine,
+];
 
 /// Position of the card with this scene, engine and drive.
 fn find(cards: &[Card], name: &str, engine: Option<&str>, drive: &str) -> Result<usize> {

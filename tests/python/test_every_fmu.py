@@ -15,6 +15,8 @@ COMPONENTS = [
     ("packing", "molecular-dynamics", "sine"),
     ("packing", "event-driven", "input"),
     ("packing", "event-driven", "sine"),
+    ("ratchet", "event-driven", "input"),
+    ("ratchet", "event-driven", "sine"),
 ]
 
 

@@ -49,7 +49,16 @@ fn gas<L: CollisionLaw>(law: L, across: usize, shell: f64) -> (Gas<L>, Vec<f64>)
     let size = [across as f64; 2];
     let types = (law, Unbounded, Weightless, Periodic { size });
     (
-        EventDriven::new(types, &disks, &masses, &velocities, Settings { shell, start_time: 0.0 }),
+        EventDriven::new(
+            types,
+            &disks,
+            &masses,
+            &velocities,
+            Settings {
+                shell,
+                ..Settings::default()
+            },
+        ),
         masses,
     )
 }

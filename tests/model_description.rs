@@ -11,6 +11,7 @@ use jostle::fmi::Version;
 use jostle::fmi::bundle::Component;
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
+use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
 use jostle::scene::wedge::{
     WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
     WedgeMolecularDynamicsOnSine,
@@ -74,4 +75,14 @@ fn wedge_event_driven() {
 fn wedge_molecular_dynamics() {
     committed::<WedgeMolecularDynamicsOnSine>();
     committed::<WedgeMolecularDynamicsOnInput>();
+}
+
+#[test]
+fn ratchet_on_input() {
+    committed::<RatchetOnInput>();
+}
+
+#[test]
+fn ratchet_on_sine() {
+    committed::<RatchetOnSine>();
 }

@@ -2,6 +2,7 @@
 
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
+use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
 use jostle::scene::wedge::{
     WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
     WedgeMolecularDynamicsOnSine,
@@ -53,6 +54,8 @@ scenes![
     WedgeEventDrivenOnSine,
     WedgeMolecularDynamicsOnInput,
     WedgeMolecularDynamicsOnSine,
+    RatchetOnInput,
+    RatchetOnSine,
 ];
 
 /// Position of the card with this scene, engine and drive.

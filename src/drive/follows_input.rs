@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Drive, Motion};
+use super::{BoundedDrive, Drive, Motion};
 
 /// One communication step of base motion: the cubic from the present position and velocity to the predicted ones.
 ///
@@ -73,6 +73,20 @@ impl Drive for FollowsInput {
             velocity: (c1 + u * (2.0 * c2 + u * 3.0 * c3)) / self.duration,
             acceleration: (2.0 * c2 + u * 6.0 * c3) / self.duration.powi(2),
         }
+    }
+}
+
+impl BoundedDrive for FollowsInput {
+    /// The acceleration changes evenly along a cubic: it is greatest at one of the ends.
+    #[inline]
+    fn greatest_acceleration(&self) -> f64 {
+        let [_, _, c2, c3] = self.coefficients;
+        (2.0 * c2).abs().max((2.0 * c2 + 6.0 * c3).abs()) / self.duration.powi(2)
+    }
+
+    #[inline]
+    fn known_until(&self) -> f64 {
+        self.end_time()
     }
 }
 

@@ -31,3 +31,12 @@ pub trait Drive: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'stat
     /// Motion at `time` \[s\].
     fn motion(&self, time: f64) -> Motion;
 }
+
+/// A drive whose acceleration is bounded as far as its motion is known.
+pub trait BoundedDrive: Drive {
+    /// Size of the acceleration \[m/s2\] that is not exceeded until [`BoundedDrive::known_until`].
+    fn greatest_acceleration(&self) -> f64;
+
+    /// End \[s\] of what is known of the motion.
+    fn known_until(&self) -> f64;
+}

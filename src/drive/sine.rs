@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Drive, Motion};
+use super::{BoundedDrive, Drive, Motion};
 
 /// Sine of fixed amplitude and frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -39,5 +39,17 @@ impl Drive for Sine {
             velocity: self.amplitude * angular_frequency * cosine,
             acceleration: -self.amplitude * angular_frequency.powi(2) * sine,
         }
+    }
+}
+
+impl BoundedDrive for Sine {
+    #[inline]
+    fn greatest_acceleration(&self) -> f64 {
+        self.amplitude.abs() * (TAU * self.frequency).powi(2)
+    }
+
+    #[inline]
+    fn known_until(&self) -> f64 {
+        f64::INFINITY
     }
 }

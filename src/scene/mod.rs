@@ -5,6 +5,7 @@
 
 pub mod base_drive;
 pub mod packing;
+pub mod ratchet;
 mod simulation;
 pub mod values;
 pub mod variables;

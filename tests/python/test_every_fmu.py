@@ -20,6 +20,8 @@ COMPONENTS = [
     ("wedge", "event-driven", "sine"),
     ("wedge", "molecular-dynamics", "input"),
     ("wedge", "molecular-dynamics", "sine"),
+    ("ratchet", "event-driven", "input"),
+    ("ratchet", "event-driven", "sine"),
 ]
 
 

@@ -3,6 +3,7 @@
 
 pub mod impact_propagator;
 pub mod reference_impact;
+pub mod sawtooth_distance;
 
 use std::sync::Arc;
 

@@ -28,9 +28,9 @@ pub trait Boundary: Clone + PartialEq + Serialize + DeserializeOwned + Send + 's
     /// if there is none. `now` is the local time \[s\] of the disk's place, `gravity` \[m/s2\] pulls down.
     fn first_hit(&self, walls: u32, body: &Body, now: f64, gravity: f64, horizon: f64) -> (f64, u32);
 
-    /// The wall at the instant `now` \[s\] of contact with a disk of this velocity \[m/s\]. `separation` tells the
-    /// relative normal velocity after an impact with the one before it.
-    fn meet(&mut self, wall: u32, velocity: [f64; 2], now: f64, separation: impl Fn(f64) -> f64) -> Meeting;
+    /// The wall at the instant `now` \[s\] of contact with a disk. `separation` tells the relative normal velocity after
+    /// an impact with the one before it.
+    fn meet(&mut self, wall: u32, body: &Body, now: f64, separation: impl Fn(f64) -> f64) -> Meeting;
 
     /// Wall `wall` belongs to the vibrating base.
     fn is_base(&self, wall: u32) -> bool;
@@ -54,7 +54,7 @@ impl Boundary for Unbounded {
         (f64::INFINITY, 0)
     }
 
-    fn meet(&mut self, _wall: u32, _velocity: [f64; 2], _now: f64, _separation: impl Fn(f64) -> f64) -> Meeting {
+    fn meet(&mut self, _wall: u32, _body: &Body, _now: f64, _separation: impl Fn(f64) -> f64) -> Meeting {
         Meeting {
             normal: [0.0, 1.0],
             velocity: [0.0, 0.0],

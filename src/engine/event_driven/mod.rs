@@ -12,6 +12,7 @@ mod body;
 mod boundary;
 mod field;
 mod queue;
+mod sawtooth;
 mod shells;
 mod space;
 mod walls;
@@ -24,7 +25,8 @@ use crate::geometry::Disk;
 pub use body::{Body, Spin};
 pub use boundary::{Boundary, Meeting, Unbounded};
 pub use field::{Field, Gravity, Weightless};
-pub use space::{Open, Periodic, Space};
+pub use sawtooth::Sawtooth;
+pub use space::{Open, Periodic, PeriodicAcross, Space};
 pub use walls::{AtRandomPhase, Moving, VibratingBase, Walls};
 
 use queue::Calendar;
@@ -42,9 +44,6 @@ const EPOCH: f64 = 32.0;
 /// a bounce for each unit in the last place of the time, some 1e-16 s; 100,000 disks in flight take 1e-4 s and more.
 const WATCH_IMPACTS: u64 = 100_000;
 const WATCH_TIME: f64 = 1e-9;
-
-/// `R^2/I` times the mass of a uniform disk.
-const INVERSE_INERTIA_FACTOR: f64 = 2.0;
 
 /// What stopped a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,6 +113,8 @@ pub struct EventDriven<L, B, F, S> {
     state: State<B>,
     calendar: Calendar,
     near: Vec<Candidate>,
+    /// 1/l with the moment of inertia `l m R^2`.
+    inverse_inertia_factor: f64,
 }
 
 /// A neighbour that approaches closely enough to be worth a square root.
@@ -133,6 +134,8 @@ pub struct Settings {
     pub shell: f64,
     /// Time of the start \[s\].
     pub start_time: f64,
+    /// Inertia factor l: the moment of inertia is `l m R^2`, 1/2 for a uniform disk, 2/5 for a ball.
+    pub inertia_factor: f64,
 }
 
 impl Default for Settings {
@@ -140,6 +143,7 @@ impl Default for Settings {
         Self {
             shell: 1.3,
             start_time: 0.0,
+            inertia_factor: 0.5,
         }
     }
 }
@@ -186,6 +190,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             state,
             calendar: Calendar::default(),
             near,
+            inverse_inertia_factor: 1.0 / settings.inertia_factor,
         };
         for disk in 0..engine.state.bodies.len() as u32 {
             engine.find_walls(disk);
@@ -296,6 +301,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     }
 
     fn meet_disk(&mut self, first: u32, second: u32, now: f64) {
+        let inverse_factor = self.inverse_inertia_factor;
         let State {
             bodies,
             spins,
@@ -328,8 +334,8 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             tangential_mass: tangential_mass(
                 here.inverse_mass,
                 there.inverse_mass,
-                INVERSE_INERTIA_FACTOR * here.inverse_mass,
-                INVERSE_INERTIA_FACTOR * there.inverse_mass,
+                inverse_factor * here.inverse_mass,
+                inverse_factor * there.inverse_mass,
             ),
             normal_velocity: (vx * n[0] + vy * n[1]).min(0.0),
             tangential_velocity: vx * n[1] - vy * n[0] + turning,
@@ -343,13 +349,15 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             body.vx += push[0] * signed_inverse_mass;
             body.vy += push[1] * signed_inverse_mass;
             body.impacts = body.impacts.wrapping_add(1);
-            turn::<L>(&mut spins[disk], signed_inverse_mass.abs() / body.radius, across, now);
+            let lever = inverse_factor * signed_inverse_mass.abs() / body.radius;
+            turn::<L>(&mut spins[disk], lever, across, now);
         }
         counts.disk_impacts += 1;
         counts.energy_lost += heat(&impact, along, across);
     }
 
     fn meet_wall(&mut self, disk: u32, wall: u32, now: f64) {
+        let inverse_factor = self.inverse_inertia_factor;
         let State {
             bodies,
             spins,
@@ -362,7 +370,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         let inverse_mass = shells.listings[disk as usize].inverse_mass;
         let impact_at = |normal_velocity: f64, tangential_velocity: f64| Impact {
             effective_mass: 1.0 / inverse_mass,
-            tangential_mass: tangential_mass(inverse_mass, 0.0, INVERSE_INERTIA_FACTOR * inverse_mass, 0.0),
+            tangential_mass: tangential_mass(inverse_mass, 0.0, inverse_factor * inverse_mass, 0.0),
             normal_velocity,
             tangential_velocity,
             time_since_last: now - spin.since,
@@ -370,7 +378,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         // Asked before the tangential velocity is known, which no law needs for the normal one.
         let law = &self.law;
         let separation = |approach: f64| law.separation_velocity(&impact_at(approach, 0.0));
-        let meeting = boundary.meet(wall, [body.vx, body.vy], now, separation);
+        let meeting = boundary.meet(wall, body, now, separation);
         let n = meeting.normal;
         let (vx, vy) = (body.vx - meeting.velocity[0], body.vy - meeting.velocity[1]);
         let turning = if L::ROTATES {
@@ -385,7 +393,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         body.vx += push[0] * inverse_mass;
         body.vy += push[1] * inverse_mass;
         body.impacts = body.impacts.wrapping_add(1);
-        turn::<L>(spin, inverse_mass / body.radius, across, now);
+        turn::<L>(spin, inverse_factor * inverse_mass / body.radius, across, now);
         counts.wall_impacts += 1;
         counts.energy_lost += heat(&impact, along, across);
         counts.energy_input += push[0] * meeting.velocity[0] + push[1] * meeting.velocity[1];
@@ -582,12 +590,12 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     }
 }
 
-/// Brings the angle up to `now` and applies the tangential impulse.
+/// Brings the angle up to `now` and applies the tangential impulse; `lever` = R/I.
 #[inline(always)]
-fn turn<L: CollisionLaw>(spin: &mut Spin, inverse_mass_over_radius: f64, across: f64, now: f64) {
+fn turn<L: CollisionLaw>(spin: &mut Spin, lever: f64, across: f64, now: f64) {
     if L::ROTATES {
         spin.angle += spin.angular_velocity * (now - spin.since);
-        spin.angular_velocity += INVERSE_INERTIA_FACTOR * across * inverse_mass_over_radius;
+        spin.angular_velocity += lever * across;
     }
     if L::ROTATES || L::REMEMBERS {
         spin.since = now;

@@ -91,3 +91,42 @@ impl Space for Periodic {
         [x, y]
     }
 }
+
+/// Cell repeated to the left and right, open above and below.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PeriodicAcross {
+    /// Period \[m\]; the cell begins at zero.
+    pub width: f64,
+    /// Bottom and height \[m\] of the region where most disks are.
+    pub bottom: f64,
+    /// See `bottom`.
+    pub height: f64,
+}
+
+impl Space for PeriodicAcross {
+    const PERIODIC: [bool; 2] = [true, false];
+
+    fn region(&self) -> ([f64; 2], [f64; 2]) {
+        ([0.0, self.bottom], [self.width, self.height])
+    }
+
+    #[inline(always)]
+    fn shortest(&self, [mut x, y]: [f64; 2]) -> [f64; 2] {
+        if x > 0.5 * self.width {
+            x -= self.width;
+        } else if x < -0.5 * self.width {
+            x += self.width;
+        }
+        [x, y]
+    }
+
+    #[inline(always)]
+    fn wrapped(&self, [mut x, y]: [f64; 2]) -> [f64; 2] {
+        if x >= self.width {
+            x -= self.width;
+        } else if x < 0.0 {
+            x += self.width;
+        }
+        [x, y]
+    }
+}

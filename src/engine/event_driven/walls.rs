@@ -146,7 +146,7 @@ impl<W: VibratingBase> Boundary for Walls<W> {
         (if found { earliest } else { f64::INFINITY }, first)
     }
 
-    fn meet(&mut self, wall: u32, [vx, vy]: [f64; 2], now: f64, separation: impl Fn(f64) -> f64) -> Meeting {
+    fn meet(&mut self, wall: u32, body: &Body, now: f64, separation: impl Fn(f64) -> f64) -> Meeting {
         let wall = self.walls[wall as usize];
         let [nx, ny] = wall.normal;
         if wall.follows_base == 0.0 {
@@ -155,7 +155,9 @@ impl<W: VibratingBase> Boundary for Walls<W> {
                 velocity: [0.0, 0.0],
             };
         }
-        let velocity = self.base.velocity(self.origin + now, nx * vx + ny * vy, ny, separation);
+        let velocity = self
+            .base
+            .velocity(self.origin + now, nx * body.vx + ny * body.vy, ny, separation);
         Meeting {
             normal: wall.normal,
             velocity: [0.0, velocity],

@@ -1,0 +1,4 @@
+//! FMU of the granular ratchet whose base follows the importer's inputs.
+#![allow(unsafe_code)] // the exported C functions; each is checked in `jostle::fmi::abi`
+
+jostle::export_fmu!(jostle::scene::ratchet::RatchetOnInput);

@@ -1,0 +1,103 @@
+//! Start of a ratchet: parameters in, loose rows of disks above the base and their masses out.
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+use crate::error::{Error, Result};
+use crate::geometry::{Disk, SawtoothProfile};
+use crate::packing::RadiusDistribution;
+use crate::scene::Choice;
+use crate::scene::Values;
+
+use super::rows::EQUAL_MASS;
+
+/// Distance of neighbours in the rows over the largest diameter.
+const PITCH: f64 = 1.1;
+
+/// Periods narrower than this many radii would let a disk see two images of another.
+const NARROWEST: f64 = 8.0;
+
+/// Width of the cell \[m\].
+pub fn cell_width(values: &Values) -> f64 {
+    values.integer("tooth.count") as f64 * values.real("tooth.width")
+}
+
+/// Layer count n = N / k, k disks of the smallest radius across the cell (F III; k = width / 2.1 mm).
+pub fn layers(disks: usize, values: &Values) -> f64 {
+    disks as f64 * 2.0 * values.real("disk.radius_min") / cell_width(values)
+}
+
+/// The teeth that the parameters tell.
+///
+/// # Errors
+/// A shape that does not exist, by name.
+pub fn profile(values: &Values) -> Result<SawtoothProfile> {
+    SawtoothProfile::new(
+        values.real("tooth.width"),
+        values.real("tooth.height"),
+        values.real("tooth.asymmetry"),
+        values.real("tooth.tip_radius"),
+    )
+}
+
+/// Disks in loose rows above a base whose highest point is at `top` \[m\].
+///
+/// # Errors
+/// Radii, a period or a ceiling that leave no place, by name.
+pub fn disks(choice: Choice, values: &Values, top: f64) -> Result<Vec<Disk>> {
+    let (min, max) = (values.real("disk.radius_min"), values.real("disk.radius_max"));
+    if min > max {
+        return Err(Error::parameter(
+            "disk.radius_min",
+            format!("{min} m"),
+            format!("at most disk.radius_max = {max} m"),
+            "Swap the two or raise disk.radius_max.",
+        ));
+    }
+    let width = cell_width(values);
+    if width < NARROWEST * max {
+        return Err(Error::parameter(
+            "tooth.count",
+            values.integer("tooth.count"),
+            format!("at least {}: the cell is {NARROWEST} radii wide or more", {
+                (NARROWEST * max / values.real("tooth.width")).ceil()
+            }),
+            "Add teeth or take smaller disks.",
+        ));
+    }
+    let count = choice.disks as usize;
+    let seed = values.integer("seed") as u64;
+    let radii = RadiusDistribution::Uniform { min, max }.sample(count, seed)?;
+    let pitch = 2.0 * PITCH * max;
+    let across = (width / pitch) as usize;
+    let highest = top + pitch * count.div_ceil(across) as f64;
+    let ceiling = values.real("cell.height");
+    if highest > ceiling {
+        return Err(Error::parameter(
+            "cell.height",
+            format!("{ceiling} m"),
+            format!("at least {highest} m for the rows at the start"),
+            "Raise the ceiling, add teeth or take fewer disks.",
+        ));
+    }
+    // Another stream than that of the radii, which has the seed itself.
+    let mut generator = Pcg64::seed_from_u64(seed ^ 0x9e37_79b9_7f4a_7c15);
+    let mut unit = || (generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+    let spacing = width / across as f64;
+    let place = |(index, radius): (usize, f64)| Disk {
+        x: spacing * ((index % across) as f64 + 0.5) + (unit() - 0.5) * (spacing - 2.0 * max),
+        y: top + pitch * ((index / across) as f64 + 0.5),
+        radius,
+    };
+    Ok(radii.into_iter().enumerate().map(place).collect())
+}
+
+/// Masses \[kg\] by the rule that the parameters tell.
+pub fn masses(disks: &[Disk], values: &Values) -> Vec<f64> {
+    let mass = values.real("disk.mass");
+    if values.integer("disk.mass_rule") == EQUAL_MASS {
+        return vec![mass; disks.len()];
+    }
+    let mean = 0.5 * (values.real("disk.radius_min") + values.real("disk.radius_max"));
+    disks.iter().map(|disk| mass * (disk.radius / mean).powi(2)).collect()
+}

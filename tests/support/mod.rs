@@ -1,6 +1,7 @@
 //! What several integration tests share.
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod four_disks;
 pub mod impact_propagator;
 pub mod reference_impact;
 pub mod sawtooth_distance;

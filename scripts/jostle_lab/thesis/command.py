@@ -27,6 +27,7 @@ MODULES = {
     "6.7": "wedge_aperture",
     "6.8": "wedge_restitution",
     "6.9": "wedge_skin",
+    "engines": "engines",
 }
 """Figure and the module of this package that makes it."""
 

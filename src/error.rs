@@ -100,5 +100,10 @@ impl Error {
     }
 }
 
+/// Whether all numbers are finite, and so far from overflow that what is computed from them is finite too.
+pub(crate) fn are_sane(numbers: impl IntoIterator<Item = f64>) -> bool {
+    numbers.into_iter().all(|number| number.abs() < 1e100)
+}
+
 /// Result of anything that can be refused.
 pub type Result<T> = std::result::Result<T, Error>;

@@ -78,7 +78,7 @@ impl Run {
         let allowed = format!("at most {MOST_ROWS:e} rows, here {rows:e}");
         Err(Error::parameter(
             "--sample",
-            format!("{} s", self.sample),
+            format!("{:e} s", self.sample),
             allowed,
             "Sample less often or run shorter.",
         ))

@@ -8,6 +8,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::are_sane;
+
 /// Running mean rate and its standard error.
 ///
 /// It is the duty of the caller to [`BatchMeans::record`] the quantity at each [`BatchMeans::due`] time, which are
@@ -87,6 +89,12 @@ impl BatchMeans {
             .chain([&self.start])
             .all(|number| number.is_finite());
         finite && self.readings.len() <= Self::MOST && self.duration > 0.0 && self.duration.is_finite()
+    }
+
+    /// Whether these can be later or earlier batches of the same run as `own`, whose first ones lasted `first` \[s\].
+    pub fn continues(&self, own: &Self, first: f64) -> bool {
+        let sane = are_sane(self.readings.iter().copied().chain([self.duration]));
+        self.is_sound() && sane && self.start == own.start && self.duration >= first
     }
 }
 

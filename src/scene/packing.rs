@@ -12,7 +12,7 @@ use crate::drive::{FollowsInput, Sine};
 use crate::engine::molecular_dynamics::{
     Breakdown, ContactLaws, Integrator, MolecularDynamics, Setup, State, TimeStepLimits, VelocityVerlet,
 };
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, are_sane};
 use crate::geometry::{Disk, Wall};
 use crate::packing::{RadiusClass, RadiusDistribution, advancing_front};
 
@@ -196,7 +196,11 @@ pub(super) fn refusal_of(scene: &'static str, breakdown: Breakdown) -> Error {
             format!("a disk moved {distance:e} m in one time step, more than the {allowed:e} m allowed"),
             format!("{smaller}."),
         ),
-        Breakdown::NotFinite { time } => (time, "a position is no longer finite".into(), format!("{smaller}.")),
+        Breakdown::NotFinite { time } => (
+            time,
+            "a position, a velocity or the base is beyond 1e100 or no longer finite".into(),
+            format!("{smaller}."),
+        ),
         Breakdown::TooManySteps { time, steps } => (
             time,
             format!("{steps:e} time steps in one call"),
@@ -302,48 +306,21 @@ impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
     }
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
-        if let Some(what) = mismatch(&state.engine, self.engine.state()) {
+        let Report {
+            time,
+            impulse,
+            reaction_force,
+            start_energy,
+        } = state.report;
+        let report_holds = are_sane([time, impulse, reaction_force, start_energy]);
+        if !(report_holds && self.engine.fits(&state.engine, time)) {
             return Err(Error::state(
-                what,
+                "it has other numbers of disks or contacts, or numbers that no packing has",
                 "Restore states of the same scene, disk count and parameters only.",
             ));
         }
-        self.engine.restore(&state.engine, state.report.time).map_err(refusal)?;
+        self.engine.restore(&state.engine, time).map_err(refusal)?;
         self.report = state.report;
         Ok(())
-    }
-}
-
-/// Why `given` cannot be a state of the run that `own` belongs to.
-fn mismatch<D>(given: &State<D>, own: &State<D>) -> Option<String> {
-    let lengths = |state: &State<D>| {
-        [
-            state.position.len(),
-            state.velocity.len(),
-            state.acceleration.len(),
-            state.higher.len(),
-            state.searched.len(),
-        ]
-    };
-    let disks = own.searched.len() as u32;
-    let pairs_hold = given.pairs.iter().all(|pair| pair.first < disks && pair.second < disks);
-    let walls_hold = given.at_walls.iter().all(|near| near.disk < disks && near.wall < 3);
-    if lengths(given) != lengths(own) {
-        Some(format!(
-            "it has arrays of {:?} numbers, not {:?}",
-            lengths(given),
-            lengths(own)
-        ))
-    } else if !(pairs_hold && walls_hold) {
-        Some(format!("it names a disk beyond the {disks} there are"))
-    } else if !given
-        .position
-        .iter()
-        .chain(&given.velocity)
-        .all(|number| number.is_finite())
-    {
-        Some("it holds positions or velocities that are not finite".into())
-    } else {
-        None
     }
 }

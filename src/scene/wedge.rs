@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::drive::{FollowsInput, Sine};
 use crate::engine::molecular_dynamics::VelocityVerlet;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, are_sane};
 use crate::measure::BatchMeans;
 
 use super::{Card, Choice, Scene};
@@ -146,7 +146,18 @@ impl<E: Engine> Scene for Wedge<E> {
             self.report = backup.report;
             return Err(error);
         }
-        let impulse = self.engine.look(end_time).impulse * self.mass;
+        let look = self.engine.look(end_time);
+        if !look.is_sane() {
+            self.engine.restore(&backup.engine, from)?;
+            self.report = backup.report;
+            return Err(Error::Step {
+                scene: NAME,
+                time: end_time,
+                what: "the disk or the base is beyond 1e100 or no longer finite".into(),
+                remedy: "Check the base's amplitude and the inputs.".into(),
+            });
+        }
+        let impulse = look.impulse * self.mass;
         self.report.reaction_force = (self.report.impulse - impulse) / (end_time - from);
         (self.report.impulse, self.report.time) = (impulse, end_time);
         Ok(())
@@ -186,14 +197,23 @@ impl<E: Engine> Scene for Wedge<E> {
     }
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
-        let Report { time, turning, .. } = &state.report;
-        if !(time.is_finite() && turning.is_sound() && turning.due() > *time) {
-            return Err(Error::state(
-                "its running means cannot be those of a wedge",
-                "Restore states of the same scene and parameters only.",
-            ));
+        let Report {
+            time,
+            impulse,
+            reaction_force,
+            turning,
+        } = &state.report;
+        let remedy = "Restore states of the same scene and parameters only.";
+        let report_holds = are_sane([*time, *impulse, *reaction_force]);
+        if !(report_holds && turning.continues(&self.report.turning, FIRST_BATCH) && turning.due() > *time) {
+            return Err(Error::state("its running means cannot be those of a wedge", remedy));
         }
+        let former = self.engine.state();
         self.engine.restore(&state.engine, *time)?;
+        if !self.engine.look(*time).is_sane() {
+            self.engine.restore(&former, self.report.time)?;
+            return Err(Error::state("it holds numbers that no wedge has", remedy));
+        }
         self.report = state.report.clone();
         Ok(())
     }

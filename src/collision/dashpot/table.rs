@@ -48,6 +48,8 @@ const CELLS: usize = 256;
 const TOLERANCE: f64 = 2e-7;
 /// Pieces narrower than this are kept as they are.
 const NARROWEST: f64 = 1e-9;
+/// Impacts stitched for a table before it is given up: stiff skins have thousands of kinks.
+const MOST_SAMPLES: usize = 20_000;
 /// Where the misfit is looked for; the cubic passes through 0, 1/4, 3/4, 1.
 const PROBES: [f64; 4] = [0.07, 0.5, 0.62, 0.93];
 
@@ -63,13 +65,17 @@ impl TabulatedDashpot {
     /// Tabulates `law` for these effective masses \[kg\] (`collision::effective_mass`, equal bits) and the inertia factor
     /// l of the bodies, 1/2 for disks: rho = 1 + 1/l whatever the masses.
     ///
-    /// Takes some milliseconds and ten kilobytes for each different mass.
+    /// Takes some milliseconds and ten kilobytes for each different mass. A skin so stiff that its table would have no
+    /// end is not tabulated but stitched at each impact.
     pub fn new(law: Dashpot, effective_masses: &[f64], inertia_factor: f64) -> Self {
         let mut masses = effective_masses.to_vec();
         masses.sort_by(f64::total_cmp);
         masses.dedup();
         let mobility = 1.0 + 1.0 / inertia_factor;
-        let classes: Vec<Class> = masses.iter().map(|mass| Class::new(&law, *mass, mobility)).collect();
+        let classes: Vec<Class> = masses
+            .iter()
+            .filter_map(|mass| Class::new(&law, *mass, mobility))
+            .collect();
         let mut slots = vec![u32::MAX; (4 * classes.len()).next_power_of_two().max(4)];
         for (number, class) in (0_u32..).zip(&classes) {
             let mut slot = slot_of(class.effective_mass, slots.len());
@@ -153,7 +159,8 @@ impl CollisionLaw for TabulatedDashpot {
 }
 
 impl Class {
-    fn new(law: &Dashpot, effective_mass: f64, mobility: f64) -> Self {
+    /// None if the table would have no end.
+    fn new(law: &Dashpot, effective_mass: f64, mobility: f64) -> Option<Self> {
         let mut class = Self {
             effective_mass,
             restitution: law.normal_restitution(effective_mass),
@@ -168,11 +175,13 @@ impl Class {
                 inverse_width: 1.0,
                 coefficients: [0.0; 4],
             });
-            return class;
+            return Some(class);
         }
         let stitching = law.stitching(effective_mass, mobility);
         class.ratio_scale = stitching.full_slide().max(law.friction / law.stiffness_ratio);
-        class.fit(&stitching);
+        if !class.fit(&stitching) {
+            return None;
+        }
         let mut piece = 0;
         for (cell, first) in class.guide.iter_mut().enumerate() {
             while class.pieces[piece].end <= cell as f64 / CELLS as f64 {
@@ -180,13 +189,15 @@ impl Class {
             }
             *first = piece as u32;
         }
-        class
+        Some(class)
     }
 
-    /// Covers [0, 1] with pieces, from left to right.
-    fn fit(&mut self, stitching: &Stitching) {
+    /// Covers [0, 1] with pieces, from left to right; false if that takes too many.
+    fn fit(&mut self, stitching: &Stitching) -> bool {
         let scale = self.ratio_scale;
+        let samples = std::cell::Cell::new(0);
         let sample = |y: f64| {
+            samples.set(samples.get() + 1);
             // The ends stand for ratios so large or small that nothing changes any more.
             let ratio = (scale * (1.0 - y) / y).clamp(1e-8 * scale, 1e8 * scale);
             let outcome = stitching.after(ratio);
@@ -199,6 +210,9 @@ impl Class {
         };
         let mut waiting = vec![(sample(0.0), sample(1.0))];
         while let Some((left, right)) = waiting.pop() {
+            if samples.get() > MOST_SAMPLES {
+                return false;
+            }
             let width = right.y - left.y;
             if width > NARROWEST && left.sequence != right.sequence {
                 let (mut low, mut high) = (left, right);
@@ -228,6 +242,7 @@ impl Class {
                 waiting.push((left, middle));
             }
         }
+        true
     }
 
     #[inline]

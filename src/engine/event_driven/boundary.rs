@@ -37,6 +37,17 @@ pub trait Boundary: Clone + PartialEq + Serialize + DeserializeOwned + Send + 's
 
     /// The origin of local time moves on by `seconds`.
     fn shift(&mut self, seconds: f64);
+
+    /// Whether `other` can be these walls at another time, when local time began at `epoch` \[s\]: states come from
+    /// outside.
+    fn fits(&self, _other: &Self, _epoch: f64) -> bool {
+        true
+    }
+
+    /// How many walls there are.
+    fn count(&self) -> u32 {
+        0
+    }
 }
 
 /// No walls: a periodic cell.

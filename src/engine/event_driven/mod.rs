@@ -20,6 +20,7 @@ mod walls;
 use serde::{Deserialize, Serialize};
 
 use crate::collision::{CollisionLaw, Impact, effective_mass, tangential_mass};
+use crate::error::are_sane;
 use crate::geometry::Disk;
 
 pub use body::{Body, Spin};
@@ -40,18 +41,22 @@ const WALLS: u32 = u32::MAX - 32;
 /// Local time \[s\] after which its origin moves on, so that differences of times keep their digits in long runs.
 const EPOCH: f64 = 32.0;
 
-/// Impacts between two looks of the watchdog, and the least time \[s\] that they must take. A collapsed disk goes on with
-/// a bounce for each unit in the last place of the time, some 1e-16 s; 100,000 disks in flight take 1e-4 s and more.
-const WATCH_IMPACTS: u64 = 100_000;
-const WATCH_TIME: f64 = 1e-9;
+/// Farthest local time \[s\] from its origin.
+const FARTHEST: f64 = 1e12;
+
+/// Events between two looks of the watchdog, and the least time \[s\] that they must take for one disk; for n disks an
+/// n-th. A collapsed disk goes on with a bounce for each unit in the last place of the time, some 1e-16 s; a disk at
+/// 1e9 m/s leaves its shell as often as that. Disks in a dense packing have 1e6 events a second, not 1e10.
+const WATCH_EVENTS: u64 = 100_000;
+const WATCH_TIME: f64 = 1e-5;
 
 /// What stopped a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoHeadway {
     /// Time \[s\].
     pub time: f64,
-    /// Impacts since the last look of the watchdog.
-    pub impacts: u64,
+    /// Events since the last look of the watchdog.
+    pub events: u64,
     /// Time that they took \[s\].
     pub took: f64,
     /// The last two that met; a wall is named by its number.
@@ -65,6 +70,8 @@ pub enum Partner {
     Disk(u32),
     /// A wall.
     Wall(u32),
+    /// Nobody: it left its shell, which fast disks do often.
+    Shell,
 }
 
 /// Sums since the start.
@@ -84,8 +91,17 @@ pub struct Counts {
     pub energy_input: f64,
     /// Vertical impulse of the base on the disks \[N.s\].
     pub base_impulse: f64,
-    /// Impacts at the last look of the watchdog, and the time then \[s\].
+    /// Events at the last look of the watchdog, and the time then \[s\].
     watched: (u64, f64),
+}
+
+impl Counts {
+    /// All events, if there is room for as many again: a damaged count may be anything.
+    fn events(&self) -> Option<u64> {
+        let counts = [self.disk_impacts, self.wall_impacts, self.listings, self.stale];
+        let sum = counts.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count))?;
+        (sum < u64::MAX / 2).then_some(sum)
+    }
 }
 
 /// Everything that changes with time. Times are local: the time is `epoch + local`.
@@ -229,17 +245,38 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     /// Whether `state` can be one of this run: as many disks, and indices that exist.
     pub fn fits(&self, state: &State<B>) -> bool {
         let disks = self.state.bodies.len();
-        let finite = |body: &Body| {
-            [body.x, body.y, body.vx, body.vy, body.time]
-                .iter()
-                .all(|number| number.is_finite())
-                && !body.next_time.is_nan()
-                && (body.partner >= WALLS || (body.partner as usize) < disks)
+        let walls = 1_u32
+            .checked_shl(self.state.boundary.count())
+            .unwrap_or(0)
+            .wrapping_sub(1);
+        let body_holds = |(body, own): (&Body, &Body)| {
+            let partner_holds = (body.partner as usize) < disks
+                || body.partner == LEAVES_SHELL
+                || (body.partner >= WALLS && body.partner - WALLS < self.state.boundary.count());
+            are_sane([body.x, body.y, body.vx, body.vy])
+                && body.radius == own.radius
+                && body.time.abs() <= FARTHEST
+                && body.next_time >= body.time
+                && partner_holds
         };
+        let spin_holds = |spin: &Spin| are_sane([spin.angle, spin.angular_velocity]) && spin.since.abs() <= FARTHEST;
+        let Counts {
+            energy_lost,
+            energy_input,
+            base_impulse,
+            watched,
+            ..
+        } = state.counts;
+        let watch_holds = state.counts.events().is_some_and(|events| watched.0 <= events);
         state.bodies.len() == disks
             && state.spins.len() == disks
-            && state.bodies.iter().all(finite)
+            && state.bodies.iter().zip(&self.state.bodies).all(body_holds)
+            && state.spins.iter().all(spin_holds)
+            && are_sane([energy_lost, energy_input, base_impulse, watched.1, state.epoch])
+            && watch_holds
+            && self.state.boundary.fits(&state.boundary, state.epoch)
             && state.shells.is_sound(&self.state.shells)
+            && state.shells.listings.iter().all(|listing| listing.walls & !walls == 0)
     }
 
     /// Goes back (or on) to a state of this run.
@@ -281,7 +318,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         if partner == LEAVES_SHELL {
             self.renew_shell(disk, now);
             self.predict(disk, now);
-            return Ok(());
+            return self.watch(now, (disk, Partner::Shell));
         }
         self.state.bodies[disk as usize].fly(now, self.field);
         if B::EXISTS && partner >= WALLS {
@@ -292,7 +329,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         if self.state.bodies[partner as usize].impacts != self.state.shells.listings[disk as usize].partner_impacts {
             self.state.counts.stale += 1;
             self.predict(disk, now);
-            return Ok(());
+            return self.watch(now, (disk, Partner::Disk(partner)));
         }
         self.meet_disk(disk, partner, now);
         self.predict(disk, now);
@@ -522,18 +559,19 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
 
     fn watch(&mut self, now: f64, last: (u32, Partner)) -> Result<(), NoHeadway> {
         let counts = &mut self.state.counts;
-        let (impacts, since) = (counts.disk_impacts + counts.wall_impacts, counts.watched);
-        if impacts - since.0 < WATCH_IMPACTS {
+        let since = counts.watched;
+        let events = counts.disk_impacts + counts.wall_impacts + counts.listings + counts.stale;
+        if events - since.0 < WATCH_EVENTS {
             return Ok(());
         }
         let time = self.state.epoch + now;
-        counts.watched = (impacts, time);
-        if time - since.1 >= WATCH_TIME {
+        counts.watched = (events, time);
+        if time - since.1 >= WATCH_TIME / self.state.bodies.len() as f64 {
             return Ok(());
         }
         Err(NoHeadway {
             time,
-            impacts: impacts - since.0,
+            events: events - since.0,
             took: time - since.1,
             last,
         })

@@ -7,6 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::are_sane;
 use crate::geometry::Disk;
 
 use super::space::Space;
@@ -117,7 +118,7 @@ impl Shells {
         let disks = own.listings.len();
         let known = |disk: u32| disk == NONE || (disk as usize) < disks;
         let rows_hold = self.stride > 1
-            && self.rows.len() == disks * self.stride
+            && disks.checked_mul(self.stride) == Some(self.rows.len())
             && self.rows.chunks_exact(self.stride).all(|row| {
                 let count = row[0] as usize;
                 count < self.stride && row[1..=count].iter().all(|&disk| (disk as usize) < disks)
@@ -125,19 +126,29 @@ impl Shells {
         let listings_hold = self.listings.len() == disks
             && self.listings.iter().all(|listing| {
                 known(listing.next) && known(listing.previous) && (listing.cell as usize) < own.heads.len()
+            })
+            && self.listings.iter().zip(&own.listings).all(|(listing, own)| {
+                let same = (listing.radius, listing.inverse_mass) == (own.radius, own.inverse_mass);
+                same && are_sane(listing.anchor)
             });
+        let same_scale = (self.factor, self.corner, self.per_metre) == (own.factor, own.corner, own.per_metre);
         let same_grid = (self.columns, self.lines, self.heads.len()) == (own.columns, own.lines, own.heads.len());
-        rows_hold && listings_hold && same_grid && self.heads.iter().all(|&head| known(head)) && self.chains_end()
+        let heads_hold = self.heads.iter().all(|&head| known(head));
+        rows_hold && listings_hold && same_grid && same_scale && heads_hold && self.chains_hold()
     }
 
-    /// Each disk is in one chain and no chain is a ring.
-    fn chains_end(&self) -> bool {
+    /// Each disk is in one chain, that of its cell, links lead back as they lead on, and no chain is a ring.
+    fn chains_hold(&self) -> bool {
         let mut met = 0;
-        for &head in &self.heads {
-            let mut disk = head;
-            while disk != NONE && met <= self.listings.len() {
+        for (cell, &head) in self.heads.iter().enumerate() {
+            let (mut before, mut disk) = (NONE, head);
+            while disk != NONE {
+                let listing = &self.listings[disk as usize];
+                if met == self.listings.len() || listing.cell as usize != cell || listing.previous != before {
+                    return false;
+                }
                 met += 1;
-                disk = self.listings[disk as usize].next;
+                (before, disk) = (disk, listing.next);
             }
         }
         met == self.listings.len()

@@ -171,4 +171,12 @@ impl<W: VibratingBase> Boundary for Walls<W> {
     fn shift(&mut self, seconds: f64) {
         self.origin += seconds;
     }
+
+    fn fits(&self, other: &Self, epoch: f64) -> bool {
+        other.walls == self.walls && other.origin == epoch && other.base.farthest().abs() < 1e100
+    }
+
+    fn count(&self) -> u32 {
+        self.walls.len() as u32
+    }
 }

@@ -16,7 +16,8 @@ mod time_step;
 
 use std::marker::PhantomData;
 
-use crate::drive::Drive;
+use crate::drive::{Drive, Motion};
+use crate::error::are_sane;
 use crate::geometry::Disk;
 
 pub use contacts::{AtWall, Pair, SkinMemory};
@@ -109,6 +110,51 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         engine
     }
 
+    /// Whether `state`, seen at `time` \[s\], can be one of this run: as many disks, indices that exist, and a
+    /// grid point just before the time.
+    pub fn fits(&self, state: &State<D>, time: f64) -> bool {
+        let own = &self.state;
+        let lengths = |state: &State<D>| {
+            [
+                state.position.len(),
+                state.velocity.len(),
+                state.acceleration.len(),
+                state.higher.len(),
+                state.searched.len(),
+            ]
+        };
+        let (disks, walls) = (self.radii.len() as u32, self.setup.walls.len() as u32);
+        let pairs_hold = state
+            .pairs
+            .iter()
+            .all(|pair| pair.first < pair.second && pair.second < disks);
+        let walls_hold = state.at_walls.iter().all(|near| near.disk < disks && near.wall < walls);
+        let skins = state.pairs.iter().map(|pair| pair.skin);
+        let skins = skins.chain(state.at_walls.iter().map(|near| near.skin));
+        let skins_hold = skins.into_iter().all(
+            |SkinMemory {
+                 direction,
+                 reference,
+                 stretch,
+             }| { are_sane([reference, stretch]) && direction.iter().all(|part| part.abs() <= 1.0 + 1e-9) },
+        );
+        let reaches_hold = state
+            .pairs
+            .iter()
+            .all(|pair| pairs_hold && pair.reach == self.radii[pair.first as usize] + self.radii[pair.second as usize]);
+        let (step, ahead) = (self.setup.time_step, time - self.time_of(state.steps));
+        let rounding = 4.0 * f64::EPSILON * (time.abs() + self.setup.start_time.abs());
+        lengths(state) == lengths(own)
+            && pairs_hold
+            && walls_hold
+            && skins_hold
+            && reaches_hold
+            && ahead >= -step - rounding
+            && ahead <= 2.0 * step + rounding
+            && state.searched_step <= state.steps
+            && are_sane(state.searched.iter().flatten().copied().chain([state.searched_base]))
+    }
+
     /// Changes positions and velocities by hand (initial states of tests and studies) and starts afresh from there.
     pub fn set_motion(&mut self, change: impl FnOnce(&mut State<D>)) {
         change(&mut self.state);
@@ -163,9 +209,11 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     /// Continues from `state`, seen at `time` \[s\]. On a breakdown the engine is as before the call.
     pub fn restore(&mut self, state: &State<D>, time: f64) -> Result<(), Breakdown> {
         let mut former = std::mem::replace(&mut self.state, state.clone());
-        let outcome = self.look(time);
+        let former_look = self.between.clone();
+        let outcome = self.look(time).and_then(|()| self.check_finite(time));
         if outcome.is_err() {
             std::mem::swap(&mut self.state, &mut former);
+            self.between = former_look;
         }
         outcome
     }
@@ -309,8 +357,16 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
 
     /// Comparisons with what is no number are false and trip no other check.
     fn check_finite(&self, time: f64) -> Result<(), Breakdown> {
-        let finite = self.now().position.iter().all(|position| position.is_finite());
-        if finite {
+        let now = self.now();
+        let sums = [now.energy_input, now.energy_lost, now.base_force, now.dissipated_power];
+        let Motion {
+            displacement,
+            velocity,
+            acceleration,
+        } = now.base;
+        let vectors = now.position.iter().chain(&now.velocity).chain(&now.acceleration);
+        let base = [displacement, velocity, acceleration];
+        if are_sane(vectors.copied().chain(sums).chain(base)) {
             Ok(())
         } else {
             Err(Breakdown::NotFinite { time })

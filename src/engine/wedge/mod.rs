@@ -49,8 +49,8 @@ pub struct Stuck {
 
 /// Impacts after which the watchdog looks at the time.
 const WATCHED: u32 = 100_000;
-/// Time \[s\] in which so many impacts are no progress.
-const NO_PROGRESS: f64 = 1e-9;
+/// Time \[s\] in which so many impacts are no progress: 1e10 impacts a second are none that a run could live through.
+pub const NO_PROGRESS: f64 = 1e-5;
 
 /// The engine: impact law L of a disk of unit mass at a wall, motion of the walls B.
 #[derive(Debug, Clone)]

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::drive::FollowsInput;
 use crate::engine::event_driven::{Moving, NoHeadway, Partner};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, are_sane};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::{Card, Choice, Scene};
 use crate::scene::{OutputWriter, Values, Variable};
@@ -56,6 +56,18 @@ impl<R: HardRun> HardPacking<R> {
         &self.run
     }
 
+    /// Whether everything at `time` \[s\] is finite and far from overflow.
+    fn is_sane(&self, time: f64) -> bool {
+        let (counts, base) = (self.run.counts(), self.run.base(time));
+        let disks_hold = (0..self.radii.len()).all(|disk| {
+            let (place, velocity, angle, angular_velocity) = self.run.seen(disk, time);
+            are_sane(place) && are_sane(velocity) && are_sane([angle, angular_velocity])
+        });
+        disks_hold
+            && are_sane([counts.energy_lost, counts.energy_input, counts.base_impulse])
+            && are_sane([base.displacement, base.velocity, base.acceleration])
+    }
+
     /// Kinetic and potential energy \[J\] now.
     fn energies(&self) -> (f64, f64) {
         let (mut kinetic, mut potential) = (0.0, 0.0);
@@ -72,6 +84,7 @@ fn refusal(stop: NoHeadway) -> Error {
     let (disk, partner) = (stop.last.0 + 1, stop.last.1);
     let partner = match partner {
         Partner::Disk(other) => format!("disk {}", other + 1),
+        Partner::Shell => "nobody in a flight too fast to follow".into(),
         Partner::Wall(0) => "the base".into(),
         Partner::Wall(1) => "the left wall".into(),
         Partner::Wall(_) => "the right wall".into(),
@@ -80,10 +93,11 @@ fn refusal(stop: NoHeadway) -> Error {
         scene: NAME,
         time: stop.time,
         what: format!(
-            "no headway: {} impacts in {:e} s, the last of disk {disk} with {partner}",
-            stop.impacts, stop.took
+            "no headway: {} events in {:e} s, the last of disk {disk} with {partner}",
+            stop.events, stop.took
         ),
-        remedy: "Inelastic collapse? Raise collision.contact_time or lower contact.normal_damping, or use the engine \
+        remedy: "Does the base throw disks too fast? Check its amplitude and the inputs. Inelastic collapse? Raise \
+                 collision.contact_time or lower contact.normal_damping, or use the engine \
                  molecular-dynamics, which knows lasting contacts."
             .into(),
     }
@@ -145,6 +159,15 @@ impl<R: HardRun> Scene for HardPacking<R> {
             self.run.restore(&backup);
             return Err(refusal(stop));
         }
+        if !self.is_sane(end_time) {
+            self.run.restore(&backup);
+            return Err(Error::Step {
+                scene: NAME,
+                time: end_time,
+                what: "a disk or the base is beyond 1e100 or no longer finite".into(),
+                remedy: "Check the base's amplitude and the inputs.".into(),
+            });
+        }
         let given = self.run.counts().base_impulse - impulse;
         self.report = Report {
             time: end_time,
@@ -191,13 +214,21 @@ impl<R: HardRun> Scene for HardPacking<R> {
     }
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
-        if !self.run.fits(&state.engine) {
-            return Err(Error::state(
-                "it is not a state of this run",
-                "Restore states of the same scene, disk count and parameters only.",
-            ));
+        let Report {
+            time,
+            reaction_force,
+            start_energy,
+        } = state.report;
+        let remedy = "Restore states of the same scene, disk count and parameters only.";
+        if !(self.run.fits(&state.engine) && are_sane([time, reaction_force, start_energy])) {
+            return Err(Error::state("it is not a state of this run", remedy));
         }
+        let former = self.run.state();
         self.run.restore(&state.engine);
+        if !self.is_sane(time) {
+            self.run.restore(&former);
+            return Err(Error::state("it holds numbers that no packing has", remedy));
+        }
         self.report = state.report;
         Ok(())
     }

@@ -10,7 +10,7 @@ use crate::drive::{Drive, FollowsInput, Motion, RandomPhase, Sine};
 use crate::engine::event_driven::{
     AtRandomPhase, Counts, EventDriven, Gravity, Moving, NoHeadway, Open, Settings, State, VibratingBase, Walls,
 };
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::{Disk, Wall};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::{Unit, Values, Variable};
@@ -141,15 +141,38 @@ impl<W: PackingBase> HardRun for HardDisks<W> {
     }
 
     fn new(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self> {
+        let kappa = values.real("contact.stiffness_ratio");
+        if kappa > STIFFEST_SKIN {
+            return Err(Error::parameter(
+                "contact.stiffness_ratio",
+                kappa,
+                format!(
+                    "at most {STIFFEST_SKIN:e} with the engine event-driven, which follows each of its oscillations"
+                ),
+                "Take a softer skin, or the engine molecular-dynamics.",
+            ));
+        }
         let law = Dashpot::new(
             values.real("contact.normal_stiffness"),
             values.real("contact.normal_damping"),
-            values.real("contact.stiffness_ratio"),
+            kappa,
             values.real("contact.friction"),
         )?;
         let mut inverse: Vec<f64> = masses.iter().map(|mass| 1.0 / mass).collect();
         inverse.sort_by(f64::total_cmp);
         inverse.dedup();
+        let lightest = inverse.last().map_or(1.0, |most| effective_mass(*most, *most));
+        let ratio = law.damping_ratio(lightest);
+        if ratio > STRONGEST_DAMPING {
+            let damping = values.real("contact.normal_damping");
+            let most = damping * STRONGEST_DAMPING / ratio;
+            return Err(Error::parameter(
+                "contact.normal_damping",
+                format!("{damping:e} kg/s"),
+                format!("at most {most:e} kg/s for these masses with the engine event-driven, a damping ratio of 10"),
+                "Damp less, or take heavier disks or the engine molecular-dynamics.",
+            ));
+        }
         // Beyond a few classes the tables would cost more than they save, and impacts are stitched one by one.
         let classes: Vec<f64> = if inverse.len() <= MOST_CLASSES {
             let with_others = inverse
@@ -236,6 +259,12 @@ impl<W: PackingBase> HardRun for HardDisks<W> {
         Self::restore(self, state);
     }
 }
+
+/// Largest ratio of stiffnesses: an impact has some sqrt(3 kappa) phases of stick and slip.
+const STIFFEST_SKIN: f64 = 1e4;
+
+/// Largest damping ratio c: beyond, disks leave an impact at less than 0.003 of their velocity.
+const STRONGEST_DAMPING: f64 = 10.0;
 
 /// Different masses up to which impacts are tabulated.
 const MOST_CLASSES: usize = 8;

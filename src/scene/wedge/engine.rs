@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::drive::Motion;
-use crate::error::Result;
+use crate::error::{Result, are_sane};
 use crate::scene::{OutputWriter, Values, Variable};
 
 /// Disk and base at one instant; impulse and energies per mass of the disk.
@@ -24,6 +24,29 @@ pub struct Look {
     pub impulse: f64,
     /// Energies.
     pub energy: Energy,
+}
+
+impl Look {
+    /// Whether all of it is finite and far from overflow.
+    pub fn is_sane(&self) -> bool {
+        let Motion {
+            displacement,
+            velocity,
+            acceleration,
+        } = self.base;
+        let Energy {
+            kinetic,
+            potential,
+            input,
+            lost,
+        } = self.energy;
+        let scalars = [self.angle, self.angular_velocity, self.impulse];
+        are_sane(self.place)
+            && are_sane(self.velocity)
+            && are_sane(scalars)
+            && are_sane([displacement, velocity, acceleration])
+            && are_sane([kinetic, potential, input, lost])
+    }
 }
 
 /// Energies per mass of the disk \[J/kg\].

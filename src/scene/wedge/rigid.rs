@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 use crate::collision::{CollisionLaw, Dashpot, TabulatedDashpot, VelocityFloor};
 use crate::contact::LinearDashpot;
 use crate::drive::{FirstHit, RandomPhase, Sine};
-use crate::engine::wedge::{DiskInWedge, Moving, Resting, Setup, Side, State, Stuck, WallMotion};
+use crate::engine::wedge::{DiskInWedge, Moving, NO_PROGRESS, Resting, Setup, Side, State, Stuck, WallMotion};
 use crate::error::{Error, Result};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::{Kind, OutputWriter, Unit, Values, Variable};
@@ -81,7 +81,7 @@ fn refusal(stuck: Stuck, remedy: &str) -> Error {
         format!("the disk does not get off the {wall} wall, {along:e} m up from its lowest place")
     } else {
         format!(
-            "no progress: {collisions} collisions in less than 1e-9 s, the last at the {wall} wall, {along:e} m up from \
+            "no progress: {collisions} collisions in less than {NO_PROGRESS:e} s, the last at the {wall} wall, {along:e} m up from \
              the lowest place of the disk"
         )
     };

@@ -169,23 +169,7 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
     }
 
     fn restore(&mut self, state: &Self::State, time: f64) -> Result<()> {
-        let own = self.engine.state();
-        let lengths = |state: &State<D>| {
-            [
-                state.position.len(),
-                state.velocity.len(),
-                state.acceleration.len(),
-                state.higher.len(),
-                state.searched.len(),
-            ]
-        };
-        let known = state.pairs.is_empty() && state.at_walls.iter().all(|near| near.disk == 0 && near.wall < 2);
-        let finite = state
-            .position
-            .iter()
-            .chain(&state.velocity)
-            .all(|number| number.is_finite());
-        if lengths(state) != lengths(own) || !known || !finite {
+        if !self.engine.fits(state, time) {
             return Err(Error::state(
                 "it is not that of one disk and two walls",
                 "Restore states of the same scene and parameters only.",

@@ -3,8 +3,8 @@
 //! Equal disks of radius 1/2 in a periodic cell, packing fraction 0.6, from a triangular lattice with random velocities:
 //! the classic benchmark of event-driven codes. Prints CPU nanoseconds per collision.
 
+use cpu_time::ProcessTime;
 use std::f64::consts::PI;
-use std::time::Instant;
 
 use jostle::collision::{CollisionLaw, Coulomb, Smooth};
 use jostle::engine::event_driven::{EventDriven, Field, Gravity, Periodic, Settings, Unbounded, Weightless};
@@ -73,7 +73,7 @@ fn run<L: CollisionLaw, F: Field>(law: L, field: F, count: usize, shell: f64, co
     let mut end = 20.0 / 6.15;
     engine.advance_to(end).expect("headway");
     let before = engine.state().counts;
-    let start = Instant::now();
+    let start = ProcessTime::now();
     end += collisions / number / 6.15;
     engine.advance_to(end).expect("headway");
     let seconds = start.elapsed().as_secs_f64();

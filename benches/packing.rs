@@ -4,8 +4,8 @@
 //! 15, larger packings at Gamma 4, and the time of one communication step that does no work. Medians of seven runs after
 //! half a simulated second of settling; built for the generic x86-64 that ships.
 
+use cpu_time::ProcessTime;
 use std::sync::Arc;
-use std::time::Instant;
 
 use jostle::drive::Sine;
 use jostle::scene::packing::PackingOnSine;
@@ -29,7 +29,7 @@ fn packing(disks: u32, gamma: f64) -> (PackingOnSine, Values) {
 fn median(mut work: impl FnMut()) -> f64 {
     let mut seconds: Vec<f64> = (0..RUNS)
         .map(|_| {
-            let start = Instant::now();
+            let start = ProcessTime::now();
             work();
             start.elapsed().as_secs_f64()
         })

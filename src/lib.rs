@@ -10,6 +10,7 @@ pub mod engine;
 pub mod error;
 pub mod fmi;
 pub mod geometry;
+pub mod measure;
 pub mod packing;
 pub mod scene;
 

@@ -40,6 +40,34 @@ fn describe_lists_the_variables_of_the_chosen_drive() {
 }
 
 #[test]
+fn a_drive_that_is_not_named_is_the_first_of_the_engine() {
+    let head = |arguments: &[&str]| {
+        let page = text(&jostle(&[&["describe", "wedge"], arguments].concat()).stdout);
+        page.split(':').next().unwrap().to_string()
+    };
+    assert_eq!(head(&[]), "wedge, map, drive sine, 1 disks");
+    assert_eq!(
+        head(&["--engine", "event-driven"]),
+        "wedge, event-driven, drive input, 1 disks"
+    );
+    let file = folder("wedge").join("run.csv");
+    let path = file.to_str().unwrap();
+    let run = [
+        "run",
+        "wedge",
+        "--engine",
+        "event-driven",
+        "--seconds",
+        "1",
+        "--output",
+        path,
+    ];
+    assert!(jostle(&run).status.success());
+    let parameters = std::fs::read_to_string(file.with_extension("parameters.csv")).unwrap();
+    assert!(parameters.contains("drive,sine,"), "{parameters}");
+}
+
+#[test]
 fn run_writes_the_samples_and_what_made_them() {
     let file = folder("run").join("short.csv");
     let path = file.to_str().unwrap();

@@ -12,6 +12,10 @@ use jostle::fmi::bundle::Component;
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
+use jostle::scene::wedge::{
+    WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
+    WedgeMolecularDynamicsOnSine,
+};
 use jostle::scene::{Choice, Scene};
 
 fn committed<S: Scene>() {
@@ -64,4 +68,21 @@ fn ratchet_on_input() {
 #[test]
 fn ratchet_on_sine() {
     committed::<RatchetOnSine>();
+}
+
+#[test]
+fn wedge_map() {
+    committed::<WedgeMap>();
+}
+
+#[test]
+fn wedge_event_driven() {
+    committed::<WedgeEventDrivenOnSine>();
+    committed::<WedgeEventDrivenOnInput>();
+}
+
+#[test]
+fn wedge_molecular_dynamics() {
+    committed::<WedgeMolecularDynamicsOnSine>();
+    committed::<WedgeMolecularDynamicsOnInput>();
 }

@@ -19,6 +19,7 @@ from jostle_lab.peers import compare
 from jostle_lab.report import write_report
 from jostle_lab.results import Results
 from jostle_lab.run import Plan, run
+from jostle_lab.thesis.command import figure
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -28,6 +29,8 @@ app = typer.Typer(
     help="The laboratory of vibrated granular disks on a computer: a loudspeaker shakes a packing FMU, two "
     "accelerometers and a camera watch.",
 )
+
+app.command()(figure)
 
 DEMO_AMPLITUDES = "1,0.7,0.5,0.35,0.25,0.18,0.12,0.08,0.05"
 

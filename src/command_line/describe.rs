@@ -16,9 +16,9 @@ use super::{Failure, Selection, text};
 pub struct Describe {
     #[command(flatten)]
     selection: Selection,
-    /// What moves the base: input (the importer) or sine.
-    #[arg(long, default_value = "input")]
-    drive: String,
+    /// What moves the base, such as input (the importer) or sine. Without it the engine's first: input where it has one.
+    #[arg(long)]
+    drive: Option<String>,
     /// One line for each variable of each disk.
     #[arg(long)]
     all: bool,
@@ -28,7 +28,7 @@ impl Describe {
     pub fn execute(self) -> Result<(), Failure> {
         let Selection { scene, engine, .. } = self.selection.clone();
         let drive = self.drive.clone();
-        let page = with_scene(&scene, engine.as_deref(), &drive, self)??;
+        let page = with_scene(&scene, engine.as_deref(), drive.as_deref(), self)??;
         match io::stdout().write_all(page.as_bytes()) {
             // The reader, such as head, has seen enough.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),

@@ -22,9 +22,9 @@ pub struct Fmu {
     /// Version of the standard.
     #[arg(long, value_enum, default_value = "3")]
     fmi: Standard,
-    /// What moves the base: the importer's inputs, or a sine of its own.
-    #[arg(long, default_value = "input")]
-    drive: String,
+    /// What moves the base, such as input (the importer) or sine. Without it the engine's first: input where it has one.
+    #[arg(long)]
+    drive: Option<String>,
     /// File to write.
     #[arg(long, value_name = "FILE.fmu")]
     out: PathBuf,
@@ -50,7 +50,7 @@ impl Fmu {
         let component = with_scene(
             &self.selection.scene,
             engine.as_deref(),
-            &self.drive,
+            self.drive.as_deref(),
             Bundled(&self.selection),
         )??;
         let version = match self.fmi {

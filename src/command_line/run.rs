@@ -12,7 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use jostle::Error;
 use jostle::scene::{Causality, Choice, Kind, Scene, Values, Variable};
 
-use super::scenes::{Visitor, with_scene};
+use super::scenes::{Visitor, sine_if_known, with_scene};
 use super::{Failure, Selection, assignments, text};
 
 /// Most rows of one file; more is a slip of the keyboard.
@@ -43,9 +43,9 @@ pub struct Run {
     /// Parameter or constant input, such as contact.friction=0.2; may be repeated.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     assignments: Vec<String>,
-    /// What moves the base: sine, or input (held at what --set says).
-    #[arg(long, default_value = "sine")]
-    drive: String,
+    /// What moves the base, such as sine or input (held at what --set says). Without it sine, or else the engine's first.
+    #[arg(long)]
+    drive: Option<String>,
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -58,8 +58,10 @@ fn positive(text: &str) -> Result<f64, String> {
 impl Run {
     pub fn execute(self) -> Result<(), Failure> {
         let Selection { scene, engine, .. } = self.selection.clone();
+        let engine = engine.as_deref();
         let drive = self.drive.clone();
-        with_scene(&scene, engine.as_deref(), &drive, self)?
+        let drive = drive.as_deref().or_else(|| sine_if_known(&scene, engine));
+        with_scene(&scene, engine, drive, self)?
     }
 
     /// Time of row `index` \[s\]: from the start, never a running sum.
@@ -226,7 +228,7 @@ mod tests {
             output: folder.join("run.csv"),
             sample,
             assignments: assignments.iter().map(|text| text.to_string()).collect(),
-            drive: "sine".into(),
+            drive: None,
         }
     }
 

@@ -1,5 +1,7 @@
 //! Normal force of the linear dashpot with cut-off at zero (P 4.2).
 
+use crate::geometry::bracketed_root::falling_root;
+
 /// Linear spring and dashpot that push and never pull.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearDashpot {
@@ -54,6 +56,18 @@ impl LinearDashpot {
         (-damping_ratio * Self::scaled_duration(damping_ratio)).exp()
     }
 
+    /// Damping ratio c >= 0 at which the restitution is e_n in (0, 1].
+    ///
+    /// The inverse of [`LinearDashpot::restitution_at`], by bisection to rounding.
+    pub fn damping_ratio_for(restitution: f64) -> f64 {
+        if restitution >= 1.0 {
+            return 0.0;
+        }
+        // Above critical damping e_n > 1 / (2 c)^2 / e^2: there the bracket ends.
+        let most = 1.0 + 1.0 / restitution.sqrt();
+        falling_root(0.0, most, |c| (Self::restitution_at(c) - restitution, 0.0))
+    }
+
     /// Time for which an impact presses, in units of `sqrt(m / k_n)`, at the damping ratio c >= 0.
     ///
     /// `2 acos(c) / sqrt(1 - c^2)` for c < 1, `2 acosh(c) / sqrt(c^2 - 1)` for c > 1, 2 at c = 1. Source: P 4.55.
@@ -106,6 +120,17 @@ mod tests {
                 (-c / s * ((c + s) / (c - s)).ln()).exp()
             };
             assert!((law.restitution(1.0) - printed).abs() < 1e-13, "c = {c}");
+        }
+    }
+
+    #[test]
+    fn damping_gives_the_restitution_that_was_asked_for() {
+        for restitution in [1e-6, 0.01, 0.1, 0.5, 0.9, 0.999_999, 1.0] {
+            let c = LinearDashpot::damping_ratio_for(restitution);
+            assert!(
+                (LinearDashpot::restitution_at(c) / restitution - 1.0).abs() < 1e-12,
+                "{restitution}"
+            );
         }
     }
 

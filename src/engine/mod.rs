@@ -2,3 +2,4 @@
 
 pub mod event_driven;
 pub mod molecular_dynamics;
+pub mod wedge;

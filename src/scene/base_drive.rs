@@ -5,12 +5,14 @@ use std::f64::consts::TAU;
 use crate::drive::{Drive, FollowsInput, Sine};
 use crate::error::Result;
 
-use super::variables::{Unit, Values, Variable};
+use crate::scene::{Unit, Values, Variable};
 
 /// A motion of the base that a scene can be bundled with.
 pub trait BaseDrive: Drive {
     /// Name on the command line and in the instantiation token.
     const NAME: &'static str;
+    /// Whether inputs steer it, so that [`BaseDrive::aim`] changes it.
+    const STEERED: bool;
 
     /// Parameters and inputs that it adds to a scene.
     fn variables() -> Vec<Variable>;
@@ -30,6 +32,7 @@ pub trait BaseDrive: Drive {
 
 impl BaseDrive for FollowsInput {
     const NAME: &'static str = "input";
+    const STEERED: bool = true;
 
     fn variables() -> Vec<Variable> {
         vec![
@@ -73,6 +76,7 @@ impl BaseDrive for FollowsInput {
 
 impl BaseDrive for Sine {
     const NAME: &'static str = "sine";
+    const STEERED: bool = false;
 
     fn variables() -> Vec<Variable> {
         vec![

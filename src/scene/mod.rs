@@ -7,14 +7,17 @@ pub mod base_drive;
 pub mod packing;
 pub mod ratchet;
 mod simulation;
+pub mod values;
 pub mod variables;
+pub mod wedge;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::Result;
 pub use simulation::Simulation;
-pub use variables::{Causality, Kind, OutputWriter, Quantity, Table, Unit, Value, Values, Variable};
+pub use values::{OutputWriter, Table, Values};
+pub use variables::{Causality, Kind, Quantity, Unit, Value, Variable};
 
 /// What is decided when a component is bundled and can be decided no later, since it changes the list of variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, serde::Deserialize)]

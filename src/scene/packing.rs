@@ -17,8 +17,8 @@ use crate::geometry::{Disk, Wall};
 use crate::packing::{RadiusClass, RadiusDistribution, advancing_front};
 
 use super::base_drive::BaseDrive;
-use super::variables::{OutputWriter, Values, Variable};
 use super::{Card, Choice, Scene};
+use crate::scene::{OutputWriter, Values, Variable};
 
 /// Packing whose base follows the inputs `base.displacement` and `base.velocity`.
 pub type PackingOnInput = Packing<FollowsInput, VelocityVerlet>;
@@ -159,7 +159,7 @@ fn masses_of(disks: &[Disk], values: &Values) -> Vec<f64> {
 }
 
 /// The time step that a value of `time_step` asks for: 0 asks for the default.
-fn chosen_time_step(asked: f64, limits: &TimeStepLimits) -> Result<f64> {
+pub(super) fn chosen_time_step(asked: f64, limits: &TimeStepLimits) -> Result<f64> {
     if asked == 0.0 {
         return Ok(limits.default);
     }
@@ -175,6 +175,11 @@ fn chosen_time_step(asked: f64, limits: &TimeStepLimits) -> Result<f64> {
 }
 
 fn refusal(breakdown: Breakdown) -> Error {
+    refusal_of(NAME, breakdown)
+}
+
+/// What a scene of molecular dynamics says of a breakdown.
+pub(super) fn refusal_of(scene: &'static str, breakdown: Breakdown) -> Error {
     let smaller = "Check the base's amplitude and the inputs, or take a smaller time_step";
     let (time, what, remedy) = match breakdown {
         Breakdown::TooDeep { time, overlap, allowed } => (
@@ -199,7 +204,7 @@ fn refusal(breakdown: Breakdown) -> Error {
         ),
     };
     Error::Step {
-        scene: NAME,
+        scene,
         time,
         what,
         remedy,

@@ -17,6 +17,11 @@ COMPONENTS = [
     ("packing", "event-driven", "sine"),
     ("ratchet", "event-driven", "input"),
     ("ratchet", "event-driven", "sine"),
+    ("wedge", "map", "sine"),
+    ("wedge", "event-driven", "input"),
+    ("wedge", "event-driven", "sine"),
+    ("wedge", "molecular-dynamics", "input"),
+    ("wedge", "molecular-dynamics", "sine"),
 ]
 
 

@@ -8,86 +8,27 @@
 mod contacts;
 mod forces;
 mod integrator;
+mod looks;
 mod neighbours;
+mod setup;
 mod state;
 mod time_step;
 
 use std::marker::PhantomData;
 
 use crate::drive::Drive;
-use crate::geometry::{Disk, Wall};
+use crate::geometry::Disk;
 
 pub use contacts::{AtWall, Pair, SkinMemory};
 pub use forces::ContactLaws;
 pub use integrator::{Coordinates, Gear5, Integrator, VelocityVerlet};
+pub use looks::Energies;
+pub use setup::{Breakdown, Setup};
 pub use state::State;
 pub use time_step::TimeStepLimits;
 
 use forces::Tally;
 use neighbours::{CellGrid, Cloud};
-
-/// What stays as it is during a run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Setup {
-    /// Contact laws.
-    pub laws: ContactLaws,
-    /// Walls; those that follow the base move with the drive.
-    pub walls: Vec<Wall>,
-    /// Mass of each disk \[kg\]; the moment of inertia is that of a uniform disk.
-    pub masses: Vec<f64>,
-    /// Gravity \[m/s2\], downwards.
-    pub gravity: f64,
-    /// Time step \[s\].
-    pub time_step: f64,
-    /// Time of step 0 \[s\].
-    pub start_time: f64,
-}
-
-/// What stopped a run, with the time \[s\] at which it showed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Breakdown {
-    /// Two bodies overlap by `overlap` \[m\], more than half of the smallest radius \[m\].
-    TooDeep {
-        /// Time \[s\].
-        time: f64,
-        /// Overlap \[m\].
-        overlap: f64,
-        /// Largest allowed overlap \[m\].
-        allowed: f64,
-    },
-    /// A disk moved by `distance` \[m\] in one time step, more than half of the smallest radius \[m\].
-    TooFast {
-        /// Time \[s\].
-        time: f64,
-        /// Distance in one step \[m\].
-        distance: f64,
-        /// Largest allowed distance \[m\].
-        allowed: f64,
-    },
-    /// A position is no longer a number.
-    NotFinite {
-        /// Time \[s\].
-        time: f64,
-    },
-    /// More time steps are asked for in one call than can be done.
-    TooManySteps {
-        /// Time \[s\].
-        time: f64,
-        /// Steps asked for.
-        steps: f64,
-    },
-}
-
-/// Energies of the disks \[J\].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Energies {
-    /// Translation and rotation.
-    pub kinetic: f64,
-    /// In gravity, zero at height zero.
-    pub potential: f64,
-    /// In springs and skins of closed contacts.
-    pub elastic: f64,
-}
 
 /// Largest number of time steps that one call may ask for: about a day of a small scene.
 const MOST_STEPS: f64 = 1e11;
@@ -247,57 +188,6 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     /// Time of the present grid point \[s\].
     pub fn time(&self) -> f64 {
         self.time_of(self.state.steps)
-    }
-
-    /// Impulse (x, y) \[N.s\] that the wall has given to the disks since the start, at the time last asked for.
-    pub fn impulse_of_wall(&self, wall: usize) -> [f64; 2] {
-        let first = 3 * self.radii.len() + 2 * wall;
-        let velocity = &self.now().velocity;
-        [velocity[first], velocity[first + 1]]
-    }
-
-    /// Total momentum (x, y) \[kg.m/s\] at the time last asked for.
-    pub fn momentum(&self) -> [f64; 2] {
-        let rates = self.now().rates().iter().zip(&self.setup.masses);
-        rates.fold([0.0; 2], |[x, y], (rate, mass)| {
-            [x + mass * rate[0], y + mass * rate[1]]
-        })
-    }
-
-    /// Energies at the time last asked for.
-    pub fn energies(&self) -> Energies {
-        let state = self.now();
-        let (mut kinetic, mut height) = (0.0, 0.0);
-        for (((place, rate), mass), radius) in state
-            .places()
-            .iter()
-            .zip(state.rates())
-            .zip(&self.setup.masses)
-            .zip(&self.radii)
-        {
-            let [vx, vy, angular_velocity] = *rate;
-            kinetic += 0.5 * mass * (vx * vx + vy * vy + 0.5 * (radius * angular_velocity).powi(2));
-            height += mass * place[1];
-        }
-        let places = state.places();
-        let laws = &self.setup.laws;
-        let mut elastic = 0.0;
-        for pair in state.pairs.iter().filter(|pair| pair.skin.is_closed()) {
-            let (a, b) = (places[pair.first as usize], places[pair.second as usize]);
-            let overlap = pair.reach - (a[0] - b[0]).hypot(a[1] - b[1]);
-            elastic += laws.normal.energy(overlap) + laws.skin.energy(pair.skin.stretch);
-        }
-        for near in state.at_walls.iter().filter(|near| near.skin.is_closed()) {
-            let [x, y, _] = places[near.disk as usize];
-            let distance = self.setup.walls[near.wall as usize].distance(x, y, state.base.displacement);
-            let overlap = self.radii[near.disk as usize] - distance;
-            elastic += laws.normal.energy(overlap) + laws.skin.energy(near.skin.stretch);
-        }
-        Energies {
-            kinetic,
-            potential: self.setup.gravity * height,
-            elastic,
-        }
     }
 
     fn time_of(&self, steps: u64) -> f64 {

@@ -8,8 +8,8 @@ use crate::drive::FollowsInput;
 use crate::engine::event_driven::{Moving, NoHeadway, Partner};
 use crate::error::{Error, Result};
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::variables::{OutputWriter, Values, Variable};
 use crate::scene::{Card, Choice, Scene};
+use crate::scene::{OutputWriter, Values, Variable};
 
 use super::hard::{EitherModel, HardDisks, HardRun, START_GAP};
 use super::{NAME, disks_of, equations, masses_of, rows};

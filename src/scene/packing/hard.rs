@@ -13,7 +13,7 @@ use crate::engine::event_driven::{
 use crate::error::Result;
 use crate::geometry::{Disk, Wall};
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::variables::{Unit, Values, Variable};
+use crate::scene::{Unit, Values, Variable};
 
 /// Law of the packing: stick and slip of the soft contact from a table, without loss in impacts that follow at once.
 pub type Law = ContactTime<TabulatedDashpot>;

@@ -1,7 +1,7 @@
 //! The variables of the packing scene.
 
 use crate::scene::Choice;
-use crate::scene::variables::{Unit, Variable};
+use crate::scene::{Unit, Variable};
 
 /// Names of the three radii that share the disks equally.
 pub const RADII: [&str; 3] = ["disk.radius_small", "disk.radius_medium", "disk.radius_large"];

@@ -1,0 +1,4 @@
+//! FMU of the disk in a wedge by the map of its impacts.
+#![allow(unsafe_code)] // the exported C functions; each is checked in `jostle::fmi::abi`
+
+jostle::export_fmu!(jostle::scene::wedge::WedgeMap);

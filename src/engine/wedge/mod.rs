@@ -1,0 +1,300 @@
+//! One disk in a vibrated wedge, from impact to impact: exact flights, instantaneous impacts.
+//!
+//! With [`Resting`] walls this is the map of P 6.3.1, with [`Moving`] ones the exact event-driven wedge. The map is
+//! written in the place along the wall that was hit last ([`Frame`]) instead of the height y of P 6.16 to 6.39, which
+//! divides by the sine and the cosine of the walls' angles.
+//!
+//! Needs: `|tilt| < theta_0`. Guarantees: the trajectory lives on its impacts alone, so that where and how often one looks
+//! changes no bit of what follows; the gap to the wall just left is zero to the last bit; energy and momentum balance to
+//! rounding ([`Sums`]). Memory does not grow. Not here: what an impact does (`collision`), how the walls move
+//! ([`WallMotion`]).
+
+mod base;
+mod frame;
+mod state;
+
+use crate::collision::{CollisionLaw, Impact, tangential_mass};
+use crate::drive::Motion;
+use crate::geometry::Flight;
+
+pub use base::{Moving, Resting, WallMotion};
+pub use frame::{Frame, Local, Side};
+pub use state::{State, Sums, View};
+
+/// What stays as it is during a run. Mass scales forces and energies only: the motion is that of a unit mass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setup {
+    /// Aperture and tilt.
+    pub frame: Frame,
+    /// Radius R of the disk \[m\].
+    pub radius: f64,
+    /// Gravity \[m/s2\], above 0.
+    pub gravity: f64,
+    /// Impacts that leave the wall at no more than this \[m/s\] are counted as slow: the velocity floor, if there is one.
+    pub slow: f64,
+}
+
+/// What stopped a run: the disk no longer gets off the walls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stuck {
+    /// Time \[s\].
+    pub time: f64,
+    /// Wall that was hit last.
+    pub side: Side,
+    /// Place of the centre along that wall, from the vertex of the shifted wedge \[m\].
+    pub along: f64,
+    /// Impacts without progress of time.
+    pub collisions: u32,
+}
+
+/// Impacts after which the watchdog looks at the time.
+const WATCHED: u32 = 100_000;
+/// Time \[s\] in which so many impacts are no progress.
+const NO_PROGRESS: f64 = 1e-9;
+
+/// The engine: impact law L of a disk of unit mass at a wall, motion of the walls B.
+#[derive(Debug, Clone)]
+pub struct DiskInWedge<L, B> {
+    setup: Setup,
+    law: L,
+    tangential_mass: f64,
+    state: State<B>,
+}
+
+impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
+    /// A disk without spin at `time` \[s\], `height` \[m\] up the bisector from where it would touch both walls, moving to
+    /// the right, across the bisector, at `sideways` \[m/s\].
+    pub fn new(setup: Setup, law: L, walls: B, time: f64, height: f64, sideways: f64) -> Self {
+        let side = if sideways > 0.0 { Side::Right } else { Side::Left };
+        let Local { along, above } = setup.frame.bisector();
+        let state = State {
+            base: walls.motion(time),
+            walls,
+            time,
+            side,
+            place: Local {
+                along: height * along,
+                above: height * above,
+            },
+            velocity: Local {
+                along: sideways.abs() * above,
+                above: -sideways.abs() * along,
+            },
+            rim_velocity: 0.0,
+            rim_way: 0.0,
+            next_side: side,
+            delay: f64::INFINITY,
+            sums: Sums::default(),
+            watched_since: time,
+            watched: 0,
+        };
+        let mut engine = Self {
+            setup,
+            law,
+            tangential_mass: tangential_mass(1.0, 0.0, 2.0, 0.0),
+            state,
+        };
+        engine.predict();
+        engine
+    }
+
+    /// Does all impacts up to `end_time` \[s\].
+    ///
+    /// # Errors
+    /// The disk is stuck; the state is then that of the last impact and of no use.
+    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stuck> {
+        while self.state.time + self.state.delay <= end_time {
+            self.next_impact()?;
+        }
+        Ok(())
+    }
+
+    /// Flies to the next wall and bounces there.
+    ///
+    /// # Errors
+    /// The disk is stuck; the state is then of no use. Call it only while a next impact is known (a finite delay).
+    #[inline]
+    pub fn next_impact(&mut self) -> Result<(), Stuck> {
+        let state = &mut self.state;
+        let base = state.walls.motion(state.time + state.delay);
+        let (place, velocity) = flown(&self.setup, state, state.delay, base);
+        state.time += state.delay;
+        state.base = base;
+        state.rim_way += state.rim_velocity * state.delay;
+        (state.place, state.velocity) = if state.next_side == state.side {
+            (place, velocity)
+        } else {
+            (self.setup.frame.turned(place), self.setup.frame.turned(velocity))
+        };
+        state.side = state.next_side;
+        state.place.above = 0.0;
+        if !self.bounce() {
+            return Err(self.stuck(1));
+        }
+        self.predict();
+        self.watch()
+    }
+
+    /// Moves the start of the flight to `time` \[s\], under the motion of the walls as it is, then changes that motion.
+    pub fn steer(&mut self, time: f64, change: impl FnOnce(&mut B)) {
+        let state = &mut self.state;
+        let delay = time - state.time;
+        let base = state.walls.motion(time);
+        (state.place, state.velocity) = flown(&self.setup, state, delay, base);
+        state.rim_way += state.rim_velocity * delay;
+        state.time = time;
+        change(&mut state.walls);
+        state.base = state.walls.motion(time);
+        self.predict();
+    }
+
+    /// All that the future depends on.
+    pub fn state(&self) -> &State<B> {
+        &self.state
+    }
+
+    /// Goes on from `state`.
+    pub fn restore(&mut self, state: &State<B>) {
+        self.state.clone_from(state);
+    }
+
+    /// What stays as it is.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// Motion of the walls at `time` \[s\].
+    pub fn base(&self, time: f64) -> Motion {
+        self.state.walls.motion(time)
+    }
+
+    /// The disk at `time` \[s\], which must lie in the present flight.
+    pub fn view(&self, time: f64) -> View {
+        let (Setup { frame, radius, .. }, state) = (&self.setup, &self.state);
+        let delay = time - state.time;
+        let base = self.base(time);
+        let (place, velocity) = flown(&self.setup, state, delay, base);
+        let bisector = frame.bisector();
+        let shift = radius / bisector.above;
+        let [x, y] = frame.laboratory(
+            state.side,
+            Local {
+                along: place.along + shift * bisector.along,
+                above: place.above + radius,
+            },
+        );
+        View {
+            place: [x, y + base.displacement],
+            velocity: frame.laboratory(state.side, velocity),
+            angle: (state.rim_way + state.rim_velocity * delay) / radius,
+            angular_velocity: state.rim_velocity / radius,
+        }
+    }
+
+    /// P 2.11, 2.23, 2.24 in the frame of the wall. False if the disk does not get off the wall.
+    #[inline]
+    fn bounce(&mut self) -> bool {
+        let state = &mut self.state;
+        let (up, sign) = (self.setup.frame.up(state.side), state.side.sign());
+        let impact = |wall_velocity: f64| Impact {
+            effective_mass: 1.0,
+            tangential_mass: self.tangential_mass,
+            normal_velocity: state.velocity.above - wall_velocity * up.above,
+            tangential_velocity: state.velocity.along - wall_velocity * up.along + sign * state.rim_velocity,
+            time_since_last: f64::INFINITY,
+        };
+        let leaves =
+            |wall_velocity: f64| self.law.separation_velocity(&impact(wall_velocity)) + wall_velocity * up.above > 0.0;
+        let sampled = state
+            .walls
+            .velocity_at_impact(state.base, state.velocity.above, up.above, leaves);
+        let Some(wall_velocity) = sampled else {
+            return false;
+        };
+        let before = impact(wall_velocity);
+        let impulse = self.law.impulse(&before);
+        state.velocity.above += impulse.normal;
+        state.velocity.along += impulse.tangential;
+        state.rim_velocity += sign * 2.0 * impulse.tangential;
+        let upward = impulse.normal * up.above + impulse.tangential * up.along;
+        let normal = before.normal_velocity + 0.5 * impulse.normal;
+        let tangential = before.tangential_velocity + 0.5 * impulse.tangential / self.tangential_mass;
+        state.sums.velocity += upward;
+        state.sums.input += upward * wall_velocity;
+        state.sums.lost -= impulse.normal * normal + impulse.tangential * tangential;
+        state.sums.collisions += 1;
+        let separation = before.normal_velocity + impulse.normal;
+        state.sums.slow_collisions += u64::from(separation <= self.setup.slow * (1.0 + 1e-9));
+        true
+    }
+
+    /// Finds the next impact.
+    #[inline]
+    fn predict(&mut self) {
+        let (Setup { frame, gravity, .. }, state) = (&self.setup, &mut self.state);
+        let base = state.base.velocity;
+        let delay = |side: Side, gap: f64, velocity: f64| {
+            let up = frame.up(side).above;
+            let flight = Flight {
+                gap,
+                velocity: velocity - base * up,
+                pull: gravity * up,
+            };
+            state.walls.first_hit(state.time, &flight, up)
+        };
+        let (here, there) = (state.side, state.side.other());
+        let same = delay(here, state.place.above, state.velocity.above);
+        let (place, velocity) = (frame.turned(state.place), frame.turned(state.velocity));
+        let crossing = delay(there, place.above, velocity.above);
+        (state.next_side, state.delay) = if crossing < same {
+            (there, crossing)
+        } else {
+            (here, same)
+        };
+    }
+
+    #[inline]
+    fn watch(&mut self) -> Result<(), Stuck> {
+        let state = &mut self.state;
+        state.watched += 1;
+        if state.watched < WATCHED {
+            return Ok(());
+        }
+        if state.time - state.watched_since < NO_PROGRESS {
+            return Err(self.stuck(WATCHED));
+        }
+        (state.watched, state.watched_since) = (0, state.time);
+        Ok(())
+    }
+
+    #[cold]
+    fn stuck(&self, collisions: u32) -> Stuck {
+        let state = &self.state;
+        Stuck {
+            time: state.time,
+            side: state.side,
+            along: state.place.along,
+            collisions,
+        }
+    }
+}
+
+/// Place on the wedge and velocity in the laboratory, `delay` \[s\] after the start of the flight, with the walls at `base`.
+#[inline]
+fn flown<B>(setup: &Setup, state: &State<B>, delay: f64, base: Motion) -> (Local, Local) {
+    let up = setup.frame.up(state.side);
+    let rise = base.displacement - state.base.displacement;
+    let fall = 0.5 * setup.gravity * delay * delay + rise;
+    let slower = setup.gravity * delay;
+    let (place, velocity) = (state.place, state.velocity);
+    (
+        Local {
+            along: place.along + velocity.along * delay - fall * up.along,
+            above: place.above + velocity.above * delay - fall * up.above,
+        },
+        Local {
+            along: velocity.along - slower * up.along,
+            above: velocity.above - slower * up.above,
+        },
+    )
+}

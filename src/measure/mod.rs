@@ -1,0 +1,5 @@
+//! Read-only observables: what a run shows in, numbers with their errors out. Nothing here changes what it looks at.
+
+mod batch_means;
+
+pub use batch_means::BatchMeans;

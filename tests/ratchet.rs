@@ -82,6 +82,37 @@ fn nothing_penetrates_and_nobody_is_lost() {
     }
 }
 
+/// The hardest case over thirty million impacts: `cargo test --release --test ratchet -- --ignored --nocapture`.
+#[test]
+#[ignore = "takes minutes"]
+fn nothing_penetrates_in_thirty_million_impacts() {
+    let choice = Choice { disks: 120 };
+    let frequency = (40.0 * 9.81_f64 / 2e-3).sqrt() / std::f64::consts::TAU;
+    let changes = [
+        ("tooth.height", 16e-3),
+        ("tooth.asymmetry", 0.05),
+        ("tooth.tip_radius", 1e-4),
+        ("drive.frequency", frequency),
+    ];
+    let values = sine_values(choice, &changes);
+    let profile = Profile::new(6e-3, 16e-3, 0.05, 1e-4);
+    let mut ratchet = RatchetOnSine::new(choice, 0.0, &values).unwrap();
+    let (mut deepest, mut look) = ([f64::NEG_INFINITY; 2], 0_u32);
+    let (begin, mut impacts) = (std::time::Instant::now(), 0);
+    while impacts < 30_000_000 {
+        look += 1;
+        let time = 0.1 * f64::from(look);
+        ratchet.advance_to(time, &values).unwrap();
+        let now = depths(&ratchet, &profile, time, 120, 60e-3);
+        deepest = [deepest[0].max(now[0]), deepest[1].max(now[1])];
+        let counts = &ratchet.engine().state().counts;
+        impacts = counts.disk_impacts + counts.wall_impacts;
+    }
+    let counts = &ratchet.engine().state().counts;
+    println!("{counts:?} in {:?}, depths {deepest:?} m", begin.elapsed());
+    assert!(deepest[0] < 1e-9 && deepest[1] < 1e-9);
+}
+
 /// Mean transport velocity and its standard error [m/s] over seeds, after a second of transient.
 fn transport(disks: u32, changes: &[(&str, f64)], seeds: u32, seconds: f64) -> (f64, f64) {
     let choice = Choice { disks };

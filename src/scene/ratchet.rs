@@ -15,8 +15,7 @@ use crate::error::{Error, Result};
 
 use super::base_drive::BaseDrive;
 use super::packing::hard::PackingBase;
-use super::{Card, Choice, Scene};
-use crate::scene::{OutputWriter, Values, Variable};
+use super::{Card, Choice, OutputWriter, Scene, Values, Variable};
 
 /// Ratchet whose base follows the inputs `base.displacement` and `base.velocity`.
 pub type RatchetOnInput = Ratchet<FollowsInput>;

@@ -1,7 +1,6 @@
 //! The variables of the ratchet.
 
-use crate::scene::Choice;
-use crate::scene::{Kind, Unit, Variable};
+use crate::scene::{Choice, Kind, Unit, Variable};
 
 /// Value of `disk.mass_rule` for equal masses; the other is equal density.
 pub const EQUAL_MASS: i64 = 1;

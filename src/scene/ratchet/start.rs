@@ -6,8 +6,7 @@ use rand_pcg::Pcg64;
 use crate::error::{Error, Result};
 use crate::geometry::{Disk, SawtoothProfile};
 use crate::packing::RadiusDistribution;
-use crate::scene::Choice;
-use crate::scene::Values;
+use crate::scene::{Choice, Values};
 
 use super::rows::EQUAL_MASS;
 

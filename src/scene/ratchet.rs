@@ -123,13 +123,14 @@ fn refusal(stop: NoHeadway) -> Error {
         Partner::Disk(other) => format!("disk {}", other + 1),
         Partner::Wall(0) => "the base".into(),
         Partner::Wall(_) => "the ceiling".into(),
+        Partner::Shell => "nobody: it is too fast".into(),
     };
     Error::Step {
         scene: NAME,
         time: stop.time,
         what: format!(
-            "no headway: {} impacts in {:e} s, the last of disk {disk} with {partner}",
-            stop.impacts, stop.took
+            "no headway: {} events in {:e} s, the last of disk {disk} with {partner}",
+            stop.events, stop.took
         ),
         remedy: "Inelastic collapse? Raise collision.minimum_normal_velocity or collision.restitution.".into(),
     }

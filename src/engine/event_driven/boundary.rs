@@ -40,14 +40,10 @@ pub trait Boundary: Clone + PartialEq + Serialize + DeserializeOwned + Send + 's
 
     /// Whether `other` can be these walls at another time, when local time began at `epoch` \[s\]: states come from
     /// outside.
-    fn fits(&self, _other: &Self, _epoch: f64) -> bool {
-        true
-    }
+    fn fits(&self, other: &Self, epoch: f64) -> bool;
 
     /// How many walls there are.
-    fn count(&self) -> u32 {
-        0
-    }
+    fn count(&self) -> u32;
 }
 
 /// No walls: a periodic cell.
@@ -77,4 +73,12 @@ impl Boundary for Unbounded {
     }
 
     fn shift(&mut self, _seconds: f64) {}
+
+    fn fits(&self, _other: &Self, _epoch: f64) -> bool {
+        true
+    }
+
+    fn count(&self) -> u32 {
+        0
+    }
 }

@@ -168,4 +168,14 @@ where
     fn shift(&mut self, seconds: f64) {
         self.origin += seconds;
     }
+
+    fn fits(&self, other: &Self, epoch: f64) -> bool {
+        let same_shape = other.profile == self.profile && other.ceiling == self.ceiling;
+        same_shape && other.origin == epoch && other.base.farthest().abs() < 1e100
+    }
+
+    /// The base and the ceiling.
+    fn count(&self) -> u32 {
+        2
+    }
 }

@@ -29,7 +29,7 @@ pub type RatchetEngine<D> = EventDriven<VelocityFloor<Coulomb>, Sawtooth<D>, Gra
 const NAME: &str = "ratchet";
 
 /// Radius of a shell over that of its disk.
-const SHELL: f64 = 1.6;
+const SHELL: f64 = 2.0;
 
 /// Disks above this many rows over the base belong to the topmost cells.
 const REGION_ROWS: f64 = 12.0;

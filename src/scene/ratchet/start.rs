@@ -13,8 +13,9 @@ use super::rows::EQUAL_MASS;
 /// Distance of neighbours in the rows over the largest diameter.
 const PITCH: f64 = 1.1;
 
-/// Periods narrower than this many radii would let a disk see two images of another.
-const NARROWEST: f64 = 8.0;
+/// In a period narrower than this many radii a disk could meet two images of another within one shell: images lie half a
+/// period apart or more, and two disks in shells of twice their radius approach by up to four radii until they touch.
+const NARROWEST: f64 = 12.0;
 
 /// Width of the cell \[m\].
 pub fn cell_width(values: &Values) -> f64 {

@@ -141,10 +141,21 @@ impl<W: PackingBase> HardRun for HardDisks<W> {
     }
 
     fn new(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self> {
+        let kappa = values.real("contact.stiffness_ratio");
+        if kappa > STIFFEST_SKIN {
+            return Err(Error::parameter(
+                "contact.stiffness_ratio",
+                kappa,
+                format!(
+                    "at most {STIFFEST_SKIN:e} with the engine event-driven, which follows each of its oscillations"
+                ),
+                "Take a softer skin, or the engine molecular-dynamics.",
+            ));
+        }
         let law = Dashpot::new(
             values.real("contact.normal_stiffness"),
             values.real("contact.normal_damping"),
-            values.real("contact.stiffness_ratio"),
+            kappa,
             values.real("contact.friction"),
         )?;
         let mut inverse: Vec<f64> = masses.iter().map(|mass| 1.0 / mass).collect();
@@ -248,6 +259,9 @@ impl<W: PackingBase> HardRun for HardDisks<W> {
         Self::restore(self, state);
     }
 }
+
+/// Largest ratio of stiffnesses: an impact has some sqrt(3 kappa) phases of stick and slip.
+const STIFFEST_SKIN: f64 = 1e4;
 
 /// Largest damping ratio c: beyond, disks leave an impact at less than 0.003 of their velocity.
 const STRONGEST_DAMPING: f64 = 10.0;

@@ -1,6 +1,7 @@
 //! The variables of the packing scene.
 
-use crate::scene::{Choice, Kind, Unit, Variable};
+use crate::scene::Choice;
+use crate::scene::{Unit, Variable};
 
 /// Names of the three radii that share the disks equally.
 pub const RADII: [&str; 3] = ["disk.radius_small", "disk.radius_medium", "disk.radius_large"];
@@ -13,9 +14,6 @@ pub fn rows(choice: Choice, drive: Vec<Variable>) -> Vec<Variable> {
     rows.extend(outputs(choice.disks));
     rows
 }
-
-/// Largest stiffness ratio of hard disks: an impact has some sqrt(3 kappa) phases of stick and slip, each followed.
-const STIFFEST_SKIN: f64 = 1e4;
 
 /// Value of `base.model` for the fixed bottom with a random phase (P 2.3.3); the other is the moving bottom.
 pub const RANDOM_PHASE: i64 = 1;
@@ -53,11 +51,6 @@ pub fn hard_rows(choice: Choice, drive: Vec<Variable>, further: Vec<Variable>) -
     rows.extend(calculated(choice.disks));
     rows.extend(outputs(choice.disks));
     rows.retain(|row| !absent.contains(&row.name.as_str()));
-    for row in rows.iter_mut().filter(|row| row.name == "contact.stiffness_ratio") {
-        if let Kind::Real(quantity) = &mut row.kind {
-            quantity.max = STIFFEST_SKIN;
-        }
-    }
     let energies = rows
         .iter()
         .position(|row| row.name == "disk.angle[1]")

@@ -12,3 +12,13 @@ pub struct Disk {
     /// Radius \[m\].
     pub radius: f64,
 }
+
+impl Disk {
+    /// The same disk higher by `rise` \[m\].
+    pub fn raised(self, rise: f64) -> Self {
+        Self {
+            y: self.y + rise,
+            ..self
+        }
+    }
+}

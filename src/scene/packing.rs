@@ -89,13 +89,7 @@ impl<D: BaseDrive, I: Integrator> Packing<D, I> {
 
         // The packing starts on the floor, wherever the drive has it.
         let lift = drive.motion(start_time).displacement;
-        let disks: Vec<Disk> = disks
-            .iter()
-            .map(|disk| Disk {
-                y: disk.y + lift,
-                ..*disk
-            })
-            .collect();
+        let disks: Vec<Disk> = disks.iter().map(|disk| disk.raised(lift)).collect();
         let gravity = values.real("gravity");
         let setup = Setup {
             laws,

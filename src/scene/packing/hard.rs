@@ -188,13 +188,7 @@ impl<W: PackingBase> HardRun for HardDisks<W> {
         let law = ContactTime::new(table, values.real("collision.contact_time"))?;
         let base = W::from_values(start_time, values)?;
         let lift = base.motion(start_time).displacement;
-        let disks: Vec<Disk> = disks
-            .iter()
-            .map(|disk| Disk {
-                y: disk.y + lift,
-                ..*disk
-            })
-            .collect();
+        let disks: Vec<Disk> = disks.iter().map(|disk| disk.raised(lift)).collect();
         let width = values.real("box.width");
         let walls = vec![
             Wall::vibrating_floor(),

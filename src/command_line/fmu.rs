@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use jostle::fmi::Version;
 use jostle::fmi::bundle::{self, Component};
+use jostle::scene::catalogue::{Visitor, with_scene};
 use jostle::scene::{Choice, Scene};
 
-use super::scenes::{Visitor, with_scene};
 use super::{Failure, Selection};
 
 /// Write a scene as an FMU.

@@ -6,7 +6,6 @@ mod assignments;
 mod describe;
 mod fmu;
 mod run;
-mod scenes;
 #[cfg(test)]
 mod test_scene;
 mod text;

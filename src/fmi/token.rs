@@ -8,6 +8,7 @@
 //! ```
 
 use crate::error::{Error, Result};
+use crate::scene::variables::fingerprint;
 use crate::scene::{Card, Choice, Scene, Variable};
 
 /// Token of a scene bundled with `choice`.
@@ -44,15 +45,4 @@ pub fn read<S: Scene>(token: &str) -> Result<(Choice, Vec<Variable>)> {
 
 fn prefix(card: &Card) -> String {
     format!("jostle:{}:{}:{}:disks=", card.scene, card.engine, card.drive)
-}
-
-/// FNV-1a, 64 bits, over crate version, names, causalities, types, units, ranges and starts.
-fn fingerprint(rows: &[Variable]) -> u64 {
-    let mut text = String::from(env!("CARGO_PKG_VERSION"));
-    for row in rows {
-        text.push_str(&format!("\n{} {:?} {:?}", row.name, row.causality, row.kind));
-    }
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
 }

@@ -1,11 +1,15 @@
 //! Scenes: engines, laws, drives and measures wired together, with their parameters, ranges and variables.
 //!
 //! A [`Scene`] is all that the FMI boundary and the command line need to know; a Rust program takes a [`Simulation`] of
-//! it. Neither names FMI.
+//! it, or an [`AnySimulation`] if the scene is chosen by name at run time. None of them names FMI.
 
+mod any_simulation;
 pub mod base_drive;
+pub mod catalogue;
 pub mod packing;
 pub mod ratchet;
+#[cfg(feature = "toml")]
+mod recipe;
 mod simulation;
 pub mod values;
 pub mod variables;
@@ -15,7 +19,10 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::Result;
-pub use simulation::Simulation;
+pub use any_simulation::{AnySimulation, Selection};
+#[cfg(feature = "toml")]
+pub use recipe::Recipe;
+pub use simulation::{Saved, Simulation};
 pub use values::{OutputWriter, Table, Values};
 pub use variables::{Causality, Kind, Quantity, Unit, Value, Variable};
 

@@ -3,3 +3,6 @@
 pub mod event_driven;
 pub mod molecular_dynamics;
 pub mod wedge;
+pub mod work;
+
+pub use work::{MOST_WORK_IN_A_CALL, Work};

@@ -85,6 +85,11 @@ pub trait Scene: Sized + Send + 'static {
     /// The step cannot be done; the state is as before the call.
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()>;
 
+    /// Lets one call of [`Scene::advance_to`] do no more than so much, instead of [`crate::engine::MOST_WORK_IN_A_CALL`].
+    /// It holds for this value of the scene, and is no part of its state. A scene whose calls take the same time whatever
+    /// is asked of them has nothing to limit.
+    fn limit_work(&mut self, _most: u64) {}
+
     /// Writes every calculated parameter and output, in the order of the rows.
     fn write_outputs(&self, outputs: OutputWriter<'_>);
 

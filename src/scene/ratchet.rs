@@ -9,8 +9,9 @@ use serde::{Deserialize, Serialize};
 use crate::collision::{Coulomb, VelocityFloor};
 use crate::drive::{BoundedDrive, FollowsInput, Sine};
 use crate::engine::event_driven::{
-    EventDriven, Gravity, Moving, NoHeadway, Partner, PeriodicAcross, Sawtooth, Settings, State, VibratingBase,
+    EventDriven, Gravity, Moving, Partner, PeriodicAcross, Sawtooth, Settings, State, Stop, VibratingBase,
 };
+use crate::engine::{MOST_WORK_IN_A_CALL, Work};
 use crate::error::{Error, Result};
 
 use super::base_drive::BaseDrive;
@@ -46,6 +47,8 @@ pub struct Ratchet<D: BoundedDrive> {
     mark: f64,
     /// Ceiling less the height of the teeth and the widest disk \[m\]: farther up the base would crush it.
     headroom: f64,
+    /// Work that one call may do.
+    most_work: u64,
     report: Report,
 }
 
@@ -109,15 +112,22 @@ where
             }
             self.engine.change_boundary(from, |boundary| boundary.base = base);
         }
+        let mut work = Work::at_most(self.most_work);
         if self.report.marked_place.is_none() && self.mark <= end_time {
-            self.engine.advance_to(self.mark).map_err(refusal)?;
+            self.engine.advance_within(self.mark, &mut work).map_err(refusal)?;
             self.report.marked_place = Some(self.mean_place(self.mark));
         }
-        self.engine.advance_to(end_time).map_err(refusal)
+        self.engine.advance_within(end_time, &mut work).map_err(refusal)
     }
 }
 
-fn refusal(stop: NoHeadway) -> Error {
+fn refusal(stop: Stop) -> Error {
+    let stop = match stop {
+        Stop::NoHeadway(stop) => stop,
+        Stop::TooManyEvents { time, most } => {
+            return Error::too_much_work(NAME, time, format!("more than {most} events"));
+        }
+    };
     let disk = stop.last.0 + 1;
     let partner = match stop.last.1 {
         Partner::Disk(other) => format!("disk {}", other + 1),
@@ -230,6 +240,7 @@ where
             inertia_factor,
             mark: values.real("measure.start").max(start_time),
             headroom,
+            most_work: MOST_WORK_IN_A_CALL,
             report: Report {
                 time: start_time,
                 reaction_force: 0.0,
@@ -253,6 +264,10 @@ where
         self.report.time = end_time;
         self.report.reaction_force = -given / (end_time - from);
         Ok(())
+    }
+
+    fn limit_work(&mut self, most: u64) {
+        self.most_work = most;
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {

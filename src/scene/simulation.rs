@@ -122,6 +122,11 @@ impl<S: Scene> Simulation<S> {
         Ok(())
     }
 
+    /// Lets one step do no more than so much, instead of what takes half an hour at most: see [`Work`](crate::engine::Work).
+    pub fn limit_work(&mut self, most: u64) {
+        self.scene.limit_work(most);
+    }
+
     /// Time reached \[s\].
     pub fn time(&self) -> f64 {
         self.time

@@ -20,6 +20,7 @@ mod space;
 mod state;
 mod walls;
 
+use super::Work;
 use crate::collision::CollisionLaw;
 use crate::geometry::Disk;
 
@@ -28,7 +29,7 @@ pub use boundary::{Boundary, Meeting, Unbounded};
 pub use field::{Field, Gravity, Weightless};
 pub use sawtooth::Sawtooth;
 pub use space::{Open, Periodic, PeriodicAcross, Space};
-pub use state::{Counts, NoHeadway, Partner, State};
+pub use state::{Counts, NoHeadway, Partner, State, Stop};
 pub use walls::{AtRandomPhase, Moving, VibratingBase, Walls};
 
 use prediction::Candidate;
@@ -60,6 +61,7 @@ pub struct EventDriven<L, B, F, S> {
     near: Vec<Candidate>,
     /// 1/l with the moment of inertia `l m R^2`.
     inverse_inertia_factor: f64,
+    work_of_event: u64,
 }
 
 /// How a run is set up, besides its types.
@@ -120,6 +122,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         };
         let near = vec![Candidate::default(); 64];
         let mut engine = Self {
+            work_of_event: law.most_work(),
             law,
             field,
             space,
@@ -138,8 +141,16 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     /// Handles all events up to `end_time` \[s\].
     ///
     /// # Errors
-    /// The run makes no headway.
-    pub fn advance_to(&mut self, end_time: f64) -> Result<(), NoHeadway> {
+    /// The run makes no headway, or there are more events than one call may handle; the state is then of no use.
+    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stop> {
+        self.advance_within(end_time, &mut Work::default())
+    }
+
+    /// As [`Self::advance_to`], with the work that it takes taken off `work`.
+    ///
+    /// # Errors
+    /// As [`Self::advance_to`].
+    pub fn advance_within(&mut self, end_time: f64, work: &mut Work) -> Result<(), Stop> {
         loop {
             let end = end_time - self.state.epoch;
             let bodies = &self.state.bodies;
@@ -149,8 +160,12 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             if time > end {
                 return Ok(());
             }
+            if !work.spend(self.work_of_event) {
+                let (time, most) = (self.state.epoch + time, work.most() / self.work_of_event);
+                return Err(Stop::TooManyEvents { time, most });
+            }
             self.calendar.pop();
-            self.resolve(disk, time)?;
+            self.resolve(disk, time).map_err(Stop::NoHeadway)?;
             if time > EPOCH {
                 self.begin_epoch();
             }

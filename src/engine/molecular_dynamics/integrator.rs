@@ -18,6 +18,12 @@ pub trait Integrator: Clone + Copy + Default + Send + 'static {
 
     /// Corrects what was predicted by the force evaluated there, `acceleration = force * inverse_mass`.
     fn correct(coordinates: Coordinates<'_>, force: &[f64], inverse_mass: &[f64], step: f64);
+
+    /// Corrects and then predicts the next step, with the same bits as one after the other.
+    fn correct_and_predict(mut coordinates: Coordinates<'_>, force: &[f64], inverse_mass: &[f64], step: f64) {
+        Self::correct(coordinates.reborrow(), force, inverse_mass, step);
+        Self::predict(coordinates, step);
+    }
 }
 
 /// Flat view of all degrees of freedom: positions and angles, their rates, their second derivatives, and more.
@@ -30,6 +36,18 @@ pub struct Coordinates<'state> {
     pub acceleration: &'state mut [f64],
     /// [`Integrator::HIGHER_DERIVATIVES`] arrays of the same length, one behind the other.
     pub higher: &'state mut [f64],
+}
+
+impl Coordinates<'_> {
+    /// The same view for a shorter time.
+    pub fn reborrow(&mut self) -> Coordinates<'_> {
+        Coordinates {
+            position: self.position,
+            velocity: self.velocity,
+            acceleration: self.acceleration,
+            higher: self.higher,
+        }
+    }
 }
 
 /// Velocity Verlet, second order, with damping at the predicted velocity of the same instant.
@@ -62,6 +80,17 @@ impl Integrator for VelocityVerlet {
             step,
         );
     }
+
+    #[inline]
+    fn correct_and_predict(coordinates: Coordinates<'_>, force: &[f64], inverse_mass: &[f64], step: f64) {
+        let Coordinates {
+            position,
+            velocity,
+            acceleration,
+            ..
+        } = coordinates;
+        kick_and_drift((position, velocity, acceleration), force, inverse_mass, step);
+    }
 }
 
 /// `x += h v + h^2 a / 2`, `v += h a`: inlined nowhere, since the compiler takes two at a time only if it knows from the
@@ -84,6 +113,28 @@ fn kick(velocity: &mut [f64], acceleration: &mut [f64], force: &[f64], inverse_m
         let corrected = force * inverse_mass;
         *velocity += half * (corrected - *acceleration);
         *acceleration = corrected;
+    }
+}
+
+/// [`kick`] and then [`drift`]: each number is fetched and stored once.
+#[inline(never)]
+fn kick_and_drift(
+    (position, velocity, acceleration): (&mut [f64], &mut [f64], &mut [f64]),
+    force: &[f64],
+    inverse_mass: &[f64],
+    step: f64,
+) {
+    let half = 0.5 * step;
+    let forces = force.iter().zip(inverse_mass);
+    let derivatives = velocity.iter_mut().zip(acceleration);
+    for ((position, (velocity, acceleration)), (force, inverse_mass)) in
+        position.iter_mut().zip(derivatives).zip(forces)
+    {
+        let corrected = force * inverse_mass;
+        let kicked = *velocity + half * (corrected - *acceleration);
+        *acceleration = corrected;
+        *position += step * (kicked + half * corrected);
+        *velocity = kicked + step * corrected;
     }
 }
 

@@ -245,11 +245,22 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     }
 
     fn run_to(&mut self, target: u64) -> Result<(), Breakdown> {
-        while self.state.steps < target {
-            self.step(self.setup.time_step, self.time_of(self.state.steps + 1))?;
-            self.state.steps += 1;
+        if self.state.steps >= target {
+            return Ok(());
         }
-        Ok(())
+        let step = self.setup.time_step;
+        I::predict(coordinates(&mut self.state), step);
+        loop {
+            self.arrive(step, self.time_of(self.state.steps + 1))?;
+            self.state.steps += 1;
+            let done = self.state.steps == target;
+            let coordinates = coordinates(&mut self.state);
+            if done {
+                I::correct(coordinates, &self.force, &self.inverse_mass, step);
+                return Ok(());
+            }
+            I::correct_and_predict(coordinates, &self.force, &self.inverse_mass, step);
+        }
     }
 
     /// Takes one short step on a copy if `time` lies between grid points; else there is nothing to copy.
@@ -271,6 +282,13 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     /// One step of length `step` \[s\] that ends at `time` \[s\].
     fn step(&mut self, step: f64, time: f64) -> Result<(), Breakdown> {
         I::predict(coordinates(&mut self.state), step);
+        self.arrive(step, time)?;
+        I::correct(coordinates(&mut self.state), &self.force, &self.inverse_mass, step);
+        Ok(())
+    }
+
+    /// What lies between prediction and correction of a step: base, neighbours, forces and the balance of energy.
+    fn arrive(&mut self, step: f64, time: f64) -> Result<(), Breakdown> {
         let base_before = self.state.base.displacement;
         self.state.base = self.state.drive.motion(time);
         self.search_if_due(time)?;
@@ -285,8 +303,6 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
                 allowed,
             });
         }
-        I::correct(coordinates(&mut self.state), &self.force, &self.inverse_mass, step);
-
         let state = &mut self.state;
         state.energy_input += 0.5 * (base_force_before + state.base_force) * (state.base.displacement - base_before);
         state.energy_lost += 0.5 * step * (state.dissipated_power + tally.dissipated_power) + tally.slip_heat;

@@ -7,6 +7,7 @@
 use crate::geometry::Wall;
 
 use super::contacts::{AtWall, Pair, SkinMemory};
+use super::two_contacts::{Two, two};
 
 /// Gap, in smallest radii, below which a pair is in the outer list: it lasts for long at rest and stays short.
 const OUTER_MARGIN: f64 = 0.3;
@@ -116,13 +117,25 @@ impl Neighbours {
 
 /// Largest square of a distance \[m2\] between the places in two lists.
 pub fn farthest_squared(now: &[[f64; 3]], then: &[[f64; 3]]) -> f64 {
-    let mut farthest = 0.0;
+    let count = now.len().min(then.len());
+    let (now, now_rest) = now[..count].as_chunks();
+    let (then, then_rest) = then[..count].as_chunks();
+    let mut farthest = Two::splat(0.0);
     for (now, then) in now.iter().zip(then) {
-        let (dx, dy) = (now[0] - then[0], now[1] - then[1]);
-        let squared = dx * dx + dy * dy;
-        farthest = if squared > farthest { squared } else { farthest };
+        farthest = way_squared(now, then).fast_max(farthest);
     }
-    farthest
+    if let ([now], [then]) = (now_rest, then_rest) {
+        farthest = way_squared(&[*now; 2], &[*then; 2]).fast_max(farthest);
+    }
+    let [one, other] = farthest.to_array();
+    one.max(other)
+}
+
+#[inline(always)]
+fn way_squared(now: &[[f64; 3]; 2], then: &[[f64; 3]; 2]) -> Two {
+    let way = |axis: usize| two(|k| now[k][axis]) - two(|k| then[k][axis]);
+    let (dx, dy) = (way(0), way(1));
+    dx * dx + dy * dy
 }
 
 /// Disks by cell, by counting sort. Scratch memory of a search: nothing in it outlives the search.

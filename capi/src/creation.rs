@@ -30,6 +30,7 @@ pub struct JostleSetting {
 /// # Safety
 /// Pointers are null or as said; texts end with a zero byte.
 #[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)] // a C function takes them one by one
 pub unsafe extern "C" fn jostle_new(
     scene: *const c_char,
     engine: *const c_char,

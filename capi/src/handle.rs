@@ -47,7 +47,8 @@ pub struct Inner {
     pub simulation: AnySimulation,
     /// The texts of its variables, made when they are first asked for.
     pub listing: Option<Listing>,
-    failed: bool,
+    /// A panic has shown a defect: what the scene holds may be in pieces.
+    pub failed: bool,
     error: String,
 }
 

@@ -20,7 +20,7 @@ pub use listing::{
 pub use saving::{jostle_restore, jostle_save};
 pub use values::{
     jostle_advance_to, jostle_find, jostle_get, jostle_get_by_name, jostle_get_integer_by_name, jostle_get_integers,
-    jostle_set, jostle_set_by_name, jostle_time,
+    jostle_limit_work, jostle_set, jostle_set_by_name, jostle_time,
 };
 
 #[cfg(test)]

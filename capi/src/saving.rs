@@ -45,7 +45,12 @@ pub unsafe extern "C" fn jostle_restore(
     // SAFETY: passed on.
     unsafe {
         enter(simulation, Access::Restore, |inner| {
-            inner.simulation.restore_bytes(memory::slice(bytes, size, "bytes")?)
+            let bytes = memory::slice(bytes, size, "bytes")?;
+            if inner.failed {
+                inner.simulation.restore_bytes_anew(bytes)
+            } else {
+                inner.simulation.restore_bytes(bytes)
+            }
         })
     }
 }

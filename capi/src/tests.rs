@@ -1,5 +1,5 @@
 //! What a C program cannot show: panics, threads, texts cut in the middle.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::undocumented_unsafe_blocks)]
 
 use std::ffi::{CStr, c_char};
 use std::ptr::null_mut;

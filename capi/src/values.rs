@@ -23,6 +23,22 @@ pub unsafe extern "C" fn jostle_advance_to(simulation: *mut JostleSimulation, en
     }
 }
 
+/// Lets one step do no more than so much work, instead of what takes half an hour at most. A unit is an event (0.1 to 1
+/// microseconds) or a time step of ten disks; a step that asks for more is refused. No part of the state.
+///
+/// # Safety
+/// `simulation` is null or was made here and not freed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn jostle_limit_work(simulation: *mut JostleSimulation, most: u64) -> JostleStatus {
+    // SAFETY: passed on.
+    unsafe {
+        enter(simulation, Access::Change, |inner| {
+            inner.simulation.limit_work(most);
+            Ok(())
+        })
+    }
+}
+
 /// Writes the time reached, in seconds.
 ///
 /// # Safety

@@ -73,6 +73,10 @@ static void values(JostleSimulation *wedge) {
     EXPECT(jostle_advance_to(wedge, NAN) == JOSTLE_STATUS_ERROR);
     EXPECT(jostle_advance_to(wedge, 0.5) == JOSTLE_STATUS_OK);
     EXPECT(jostle_advance_to(wedge, 0.25) == JOSTLE_STATUS_ERROR);
+    EXPECT(jostle_limit_work(wedge, 3) == JOSTLE_STATUS_OK);
+    EXPECT(jostle_advance_to(wedge, 100) == JOSTLE_STATUS_STEP_REFUSED && strstr(told(wedge), "more than one call may do"));
+    EXPECT(jostle_limit_work(wedge, 1000000000) == JOSTLE_STATUS_OK);
+    EXPECT(jostle_limit_work(NULL, 1) == JOSTLE_STATUS_NO_SIMULATION);
     EXPECT(jostle_time(wedge, now) == JOSTLE_STATUS_OK && now[0] == 0.5);
     EXPECT(jostle_time(wedge, NULL) == JOSTLE_STATUS_ERROR);
     EXPECT(jostle_get_by_name(wedge, "disk.y[1]", now) == JOSTLE_STATUS_OK && now[0] > 0);

@@ -105,6 +105,11 @@ impl AnySimulation {
         self.0.advance_to(end_time)
     }
 
+    /// Lets one step do no more than so much, instead of what takes half an hour at most: see [`Work`](crate::engine::Work).
+    pub fn limit_work(&mut self, most: u64) {
+        self.0.limit_work(most);
+    }
+
     /// Time reached \[s\].
     pub fn time(&self) -> f64 {
         self.0.time()
@@ -147,6 +152,14 @@ impl AnySimulation {
     pub fn restore_bytes(&mut self, bytes: &[u8]) -> Result<()> {
         self.0.restore_bytes(bytes)
     }
+
+    /// As [`AnySimulation::restore_bytes`], with the scene made anew: for one that a panic may have left in pieces.
+    ///
+    /// # Errors
+    /// As [`AnySimulation::restore_bytes`].
+    pub fn restore_bytes_anew(&mut self, bytes: &[u8]) -> Result<()> {
+        self.0.restore_bytes_anew(bytes)
+    }
 }
 
 impl<S: Scene> From<Simulation<S>> for AnySimulation {
@@ -160,12 +173,14 @@ trait Run: Send {
     fn set_at(&mut self, position: usize, value: Value) -> Result<()>;
     fn position(&self, name: &str) -> Result<usize>;
     fn advance_to(&mut self, end_time: f64) -> Result<()>;
+    fn limit_work(&mut self, most: u64);
     fn time(&self) -> f64;
     fn real(&self, name: &str) -> Result<f64>;
     fn integer(&self, name: &str) -> Result<i64>;
     fn values(&self) -> &Values;
     fn to_bytes(&self) -> Result<Vec<u8>>;
     fn restore_bytes(&mut self, bytes: &[u8]) -> Result<()>;
+    fn restore_bytes_anew(&mut self, bytes: &[u8]) -> Result<()>;
 }
 
 impl<S: Scene> Run for Simulation<S> {
@@ -179,6 +194,10 @@ impl<S: Scene> Run for Simulation<S> {
 
     fn advance_to(&mut self, end_time: f64) -> Result<()> {
         self.advance_to(end_time)
+    }
+
+    fn limit_work(&mut self, most: u64) {
+        self.limit_work(most);
     }
 
     fn time(&self) -> f64 {
@@ -203,6 +222,10 @@ impl<S: Scene> Run for Simulation<S> {
 
     fn restore_bytes(&mut self, bytes: &[u8]) -> Result<()> {
         self.restore_bytes(bytes)
+    }
+
+    fn restore_bytes_anew(&mut self, bytes: &[u8]) -> Result<()> {
+        self.restore_bytes_anew(bytes)
     }
 }
 

@@ -7,6 +7,7 @@ mod saving;
 
 use std::sync::Arc;
 
+use crate::engine::MOST_WORK_IN_A_CALL;
 use crate::error::{Error, Result};
 
 use super::{Causality, Choice, Scene, Table, Value, Values};
@@ -34,6 +35,8 @@ pub struct Simulation<S> {
     scene: S,
     values: Values,
     time: f64,
+    /// What [`Simulation::limit_work`] asked for.
+    most_work: u64,
 }
 
 impl<S: Scene> Simulation<S> {
@@ -72,6 +75,7 @@ impl<S: Scene> Simulation<S> {
             scene,
             values,
             time: START,
+            most_work: MOST_WORK_IN_A_CALL,
         })
     }
 
@@ -124,6 +128,7 @@ impl<S: Scene> Simulation<S> {
 
     /// Lets one step do no more than so much, instead of what takes half an hour at most: see [`Work`](crate::engine::Work).
     pub fn limit_work(&mut self, most: u64) {
+        self.most_work = most;
         self.scene.limit_work(most);
     }
 

@@ -53,6 +53,10 @@ impl<S: Scene> Simulation<S> {
     /// # Errors
     /// The state does not fit this scene or disk count, or is damaged. The simulation is then as before.
     pub fn restore(&mut self, saved: &Saved<S::State>) -> Result<()> {
+        self.go_to(saved, false)
+    }
+
+    fn go_to(&mut self, saved: &Saved<S::State>, anew: bool) -> Result<()> {
         if !(saved.time.is_finite() && saved.time >= START) {
             return Err(Error::state(
                 format!("its time is {} s", saved.time),
@@ -61,11 +65,12 @@ impl<S: Scene> Simulation<S> {
         }
         let mut values = self.values.clone();
         values.put_back(&saved.values)?;
-        if self.values.same_parameters(&values) {
+        if self.values.same_parameters(&values) && !anew {
             self.scene.restore(&saved.state)?;
         } else {
             let mut scene = S::new(self.choice, START, &values)?;
             scene.restore(&saved.state)?;
+            scene.limit_work(self.most_work);
             self.scene = scene;
         }
         self.values = values;
@@ -87,6 +92,14 @@ impl<S: Scene> Simulation<S> {
     /// The bytes are damaged or foreign, or hold values out of range. The simulation is then as before.
     pub fn restore_bytes(&mut self, bytes: &[u8]) -> Result<()> {
         self.restore(&saved_bytes::read(bytes, &self.owner())?)
+    }
+
+    /// As [`Simulation::restore_bytes`], with the scene made anew: for one that a panic may have left in pieces.
+    ///
+    /// # Errors
+    /// As [`Simulation::restore_bytes`].
+    pub fn restore_bytes_anew(&mut self, bytes: &[u8]) -> Result<()> {
+        self.go_to(&saved_bytes::read(bytes, &self.owner())?, true)
     }
 
     fn owner(&self) -> String {
@@ -142,5 +155,20 @@ mod tests {
             simulation.advance_to(0.2).unwrap();
         }
         assert!(one.save() == other.save());
+    }
+
+    #[test]
+    fn the_limit_of_work_outlives_a_scene_made_anew() {
+        let mut one = Simulation::<HardPackingOnSine>::new(5, &[]).unwrap();
+        let bytes = one.to_bytes().unwrap();
+        one.limit_work(3);
+        one.restore_bytes_anew(&bytes).unwrap();
+        assert!(
+            one.advance_to(1.0)
+                .unwrap_err()
+                .to_string()
+                .contains("more than one call may do")
+        );
+        assert!(one.to_bytes().unwrap() == bytes);
     }
 }

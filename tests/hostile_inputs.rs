@@ -1,0 +1,191 @@
+//! Hostile but legal physics, case by case: what each scene and engine answers is what the table in `docs/abuse.md` says.
+//!
+//! A refused step leaves the state as it was, and the next sane one goes through; an answer is finite, keeps disks above
+//! the base, and its energies balance.
+
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::TAU;
+
+use jostle::Error;
+use jostle::scene::catalogue::cards;
+use jostle::scene::{AnySimulation, Card, Selection, Value};
+
+const TABLE: &str = include_str!("../docs/abuse.md");
+const CASES: [&str; 4] = [
+    "jump of the base",
+    "not a number",
+    "amplitude times 1000",
+    "step times 1000",
+];
+const AMPLITUDE: f64 = 1e-4;
+const FREQUENCY: f64 = 80.0;
+const STEP: f64 = 1e-3;
+
+fn simulation(card: &Card, amplitude: f64) -> Result<AnySimulation, Error> {
+    let selection = Selection {
+        scene: card.scene,
+        engine: Some(card.engine),
+        drive: Some(card.drive),
+        disks: Some(20.min(*card.disks.end())),
+    };
+    let (amplitude, frequency) = (amplitude.to_string(), FREQUENCY.to_string());
+    match card.drive {
+        "sine" => AnySimulation::new(
+            selection,
+            &[("drive.amplitude", &amplitude), ("drive.frequency", &frequency)],
+        ),
+        _ => AnySimulation::new(selection, &[]),
+    }
+}
+
+/// Base of y = A (1 - cos(omega t)), given as inputs.
+fn aim(simulation: &mut AnySimulation, amplitude: f64) {
+    let phase = TAU * FREQUENCY * simulation.time();
+    let inputs = [
+        ("base.displacement", amplitude * (1.0 - phase.cos())),
+        ("base.velocity", amplitude * TAU * FREQUENCY * phase.sin()),
+    ];
+    for (name, value) in inputs {
+        if simulation.position(name).is_ok() {
+            simulation.set(name, value).unwrap();
+        }
+    }
+}
+
+fn walk(simulation: &mut AnySimulation, steps: u32, amplitude: f64) -> Result<(), Error> {
+    for _ in 0..steps {
+        aim(simulation, amplitude);
+        simulation.advance_to(simulation.time() + STEP)?;
+    }
+    Ok(())
+}
+
+/// What an answer must be.
+fn check(simulation: &AnySimulation, what: &str) {
+    let values = simulation.values();
+    for (row, value) in values.table().rows().iter().zip(values.as_slice()) {
+        assert!(
+            !matches!(value, Value::Real(real) if !real.is_finite()),
+            "{what}: {} = {value:?}",
+            row.name
+        );
+    }
+    if let Ok(residual) = simulation.real("energy.residual") {
+        let names = ["energy.kinetic", "energy.potential", "energy.input", "energy.lost"];
+        let scale: f64 = names.iter().map(|name| simulation.real(name).unwrap().abs()).sum();
+        // Exact from impact to impact; of first order in the time step for soft disks.
+        let allowed = if simulation.position("chosen_time_step").is_ok() {
+            0.05
+        } else {
+            1e-6
+        };
+        assert!(
+            residual.abs() <= allowed * scale,
+            "{what}: {residual:e} beside {scale:e}"
+        );
+    }
+    if let (Ok(y), Ok(radius)) = (simulation.real("disk.y[1]"), simulation.real("disk.radius[1]"))
+        && let Ok(base) = simulation.real("base.position")
+    {
+        assert!(y > base + 0.4 * radius, "{what}: the disk at {y}, the base at {base}");
+    }
+}
+
+/// One hostile step, or more of a hostile motion, after 0.1 s of a usual one.
+fn answer(card: &Card, case: &str) -> &'static str {
+    let what = format!("{} {} {}, {case}", card.scene, card.engine, card.drive);
+    let times_1000 = card.drive == "sine" && case == "amplitude times 1000";
+    let mut simulation = match simulation(card, if times_1000 { 1000.0 * AMPLITUDE } else { AMPLITUDE }) {
+        Ok(simulation) => simulation,
+        Err(error) => {
+            assert!(error.to_string().contains("drive.amplitude"), "{what}: {error}");
+            return "refused at the start";
+        }
+    };
+    if !times_1000 {
+        walk(&mut simulation, 100, AMPLITUDE).unwrap_or_else(|error| panic!("{what}: {error}"));
+    }
+    let (before, time) = (simulation.to_bytes().unwrap(), simulation.time());
+    aim(&mut simulation, AMPLITUDE);
+    let sane = simulation.to_bytes().unwrap();
+    let outcome = match case {
+        "jump of the base" => {
+            simulation.set("base.displacement", 0.05).unwrap();
+            simulation.advance_to(time + STEP)
+        }
+        "not a number" => {
+            assert!(simulation.set("base.velocity", f64::NAN).is_err(), "{what}");
+            assert_eq!(simulation.to_bytes().unwrap(), sane, "{what}");
+            walk(&mut simulation, 10, AMPLITUDE).unwrap();
+            check(&simulation, &what);
+            return "input refused";
+        }
+        "amplitude times 1000" => walk(&mut simulation, 100, 1000.0 * AMPLITUDE),
+        _ => simulation.advance_to(time + 1000.0 * STEP),
+    };
+    let Err(error) = outcome else {
+        check(&simulation, &what);
+        return "answered";
+    };
+    assert!(matches!(error, Error::Step { .. }), "{what}: {error}");
+    if simulation.time() == time {
+        // Inputs apart, which the caller set, nothing has changed; the caller may retry.
+        walk(&mut simulation, 1, AMPLITUDE).unwrap_or_else(|error| panic!("{what}, retried: {error}"));
+        let retried = simulation.to_bytes().unwrap();
+        simulation.restore_bytes(&before).unwrap();
+        walk(&mut simulation, 1, AMPLITUDE).unwrap();
+        assert!(
+            simulation.to_bytes().unwrap() == retried,
+            "{what}: the refusal left a trace"
+        );
+    }
+    "step refused"
+}
+
+/// What asks for too much is refused at the same place on every machine, and shorter steps do it.
+#[test]
+fn the_work_of_a_step_is_bounded() {
+    for card in cards() {
+        let mut limited = simulation(&card, AMPLITUDE).unwrap();
+        let mut free = simulation(&card, AMPLITUDE).unwrap();
+        limited.limit_work(20);
+        let before = limited.to_bytes().unwrap();
+        let refusal = limited.advance_to(1.0).unwrap_err().to_string();
+        assert!(
+            refusal.contains("more than one call may do. Take shorter communication steps."),
+            "{card:?}: {refusal}"
+        );
+        assert!(
+            limited.to_bytes().unwrap() == before,
+            "{card:?}: the refusal left a trace"
+        );
+        limited.limit_work(1_000_000);
+        limited.advance_to(0.25).unwrap();
+        free.advance_to(0.25).unwrap();
+        assert!(limited.to_bytes().unwrap() == free.to_bytes().unwrap(), "{card:?}");
+    }
+}
+
+#[test]
+fn every_case_is_answered_as_documented() {
+    let mut rows = Vec::new();
+    for card in cards() {
+        let mut cells = vec![format!("{}, {}, {}", card.scene, card.engine, card.drive)];
+        for case in CASES {
+            let has_case = card.drive == "input" || case.contains("times");
+            cells.push(if has_case {
+                answer(&card, case).into()
+            } else {
+                "-".into()
+            });
+        }
+        rows.push(format!("| {} |", cells.join(" | ")));
+    }
+    let missing: Vec<_> = rows.iter().filter(|row| !TABLE.contains(row.as_str())).collect();
+    assert!(
+        missing.is_empty(),
+        "docs/abuse.md says otherwise; found:\n{}",
+        rows.join("\n")
+    );
+}

@@ -110,6 +110,11 @@ where
             if base.farthest >= self.headroom {
                 return Err(crushed(from, base.farthest, self.headroom));
             }
+            // Towards where the base goes is searched in steps: a base that leaves for the stars has no end of them.
+            let travel = base.drive.greatest_acceleration() * (end_time - from).powi(2);
+            if travel.is_nan() || travel > MOST_TRAVEL {
+                return Err(too_far(from, travel));
+            }
             self.engine.change_boundary(from, |boundary| boundary.base = base);
         }
         let mut work = Work::at_most(self.most_work);
@@ -143,6 +148,20 @@ fn refusal(stop: Stop) -> Error {
             stop.events, stop.took
         ),
         remedy: "Inelastic collapse? Raise collision.minimum_normal_velocity or collision.restitution.".into(),
+    }
+}
+
+/// Change of the base's motion within a step \[m\] that is followed.
+const MOST_TRAVEL: f64 = 1e4;
+
+fn too_far(time: f64, travel: f64) -> Error {
+    Error::Step {
+        scene: NAME,
+        time,
+        what: format!(
+            "the inputs change the way of the base by {travel:e} m within the step, and at most {MOST_TRAVEL:e} m are followed"
+        ),
+        remedy: "Check base.displacement and base.velocity, or take a shorter step.".into(),
     }
 }
 

@@ -121,8 +121,9 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             shells: Shells::new(&space, disks, masses, settings.shell),
         };
         let near = vec![Candidate::default(); 64];
+        let largest = disks.iter().map(|disk| disk.radius).fold(0.0, f64::max);
         let mut engine = Self {
-            work_of_event: law.most_work(),
+            work_of_event: law.most_work() + state.boundary.most_work(largest),
             law,
             field,
             space,

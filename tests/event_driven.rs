@@ -9,8 +9,8 @@ use jostle::collision::{CollisionLaw, ContactTime, Coulomb, Smooth};
 use jostle::drive::{FollowsInput, RandomPhase, Sine};
 use jostle::engine::Work;
 use jostle::engine::event_driven::{
-    AtRandomPhase, EventDriven, Gravity, Moving, Open, Partner, Periodic, Settings, Stop, Unbounded, VibratingBase,
-    Walls, Weightless,
+    AtRandomPhase, EventDriven, Gravity, Moving, Open, Partner, Periodic, Settings, Stop, Unbounded, Unobserved,
+    VibratingBase, Walls, Weightless,
 };
 use jostle::geometry::{Disk, Wall};
 use jostle::packing::{RadiusDistribution, advancing_front};
@@ -367,7 +367,9 @@ fn the_work_of_a_call_is_bounded() {
     let mut engine = boxed(law, sine(3.0), &disk, &[[0.0; 3]]);
     let mut other = engine.clone();
     let start = engine.state().clone();
-    let stop = engine.advance_within(10.0, &mut Work::at_most(100)).unwrap_err();
+    let stop = engine
+        .advance_within(10.0, &mut Unobserved, &mut Work::at_most(100))
+        .unwrap_err();
     assert!(
         matches!(stop, Stop::TooManyEvents { time, most: 100 } if (0.1..10.0).contains(&time)),
         "{stop:?}"

@@ -6,6 +6,7 @@
 mod any_simulation;
 pub mod base_drive;
 pub mod catalogue;
+pub mod hard_disks;
 pub mod packing;
 pub mod ratchet;
 #[cfg(feature = "toml")]

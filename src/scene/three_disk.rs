@@ -8,7 +8,7 @@ mod rows;
 
 use serde::{Deserialize, Serialize};
 
-use crate::drive::excitation::{HarmonicTorque, HeldTorque, Instant, RandomSupports, SineSupports};
+use crate::drive::excitation::{HarmonicTorque, HeldTorque, Piece, RandomSupports, SineSupports};
 use crate::engine::three_disk::{
     LOST, Look, Node, Phase, Record, Sense, SlidingPoint, State, Stuck, ThreeDisk as Engine, TimeStepLimits, WORK,
     equilibrium,
@@ -256,11 +256,7 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
         let period = E::period(values);
         setup.time_step = chosen_time_step(values.real("time_step"), &TimeStepLimits::of(&setup, period))?;
         let excitation = E::new(start_time, setup.time_step, values);
-        let start = Instant {
-            start: start_time,
-            offset: 0.0,
-        };
-        let rest = equilibrium(&setup, &excitation.supports(start)).map_err(|_| {
+        let rest = equilibrium(&setup, &excitation.piece(start_time).supports(0.0)).map_err(|_| {
             let weight = setup.mass * setup.gravity;
             Error::parameter(
                 "contact.normal_stiffness",
@@ -311,7 +307,7 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
-        let (look, State { now, excitation, .. }) = (self.engine.look(), self.engine.state());
+        let (look, now) = (self.engine.look(), &self.engine.state().now);
         let Report { time, turning, .. } = &self.report;
         let Node { disk, .. } = now;
         let record = since(&now.record, self.report.before.as_ref().unwrap_or(&now.record));
@@ -324,11 +320,8 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
             turning.standard_error(),
         );
         outputs.real("base.reaction_force", self.report.reaction_force);
-        let instant = Instant {
-            start: time - now.offset,
-            offset: now.offset,
-        };
-        excitation.write(instant, &mut outputs);
+        let (torque, supports) = self.engine.driven();
+        E::write(&mut outputs, torque, &supports);
         let Energies {
             kinetic,
             potential,

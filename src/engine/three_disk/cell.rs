@@ -1,9 +1,9 @@
 //! One cell of the grid of time: smooth steps from event to event.
 
-use crate::drive::excitation::{Excitation, Instant};
+use crate::drive::excitation::Piece;
 
 use super::contact::{Bounds, Contact, after, margins};
-use super::dynamics::{Look, Setup, look};
+use super::dynamics::{Look, Mode, Setup, look, rates_of};
 use super::runge_kutta::{Vector, advance};
 use super::state::Node;
 
@@ -27,9 +27,9 @@ pub struct Stuck {
 }
 
 /// One cell: what is fixed, what drives, where it starts.
-pub struct Cell<'engine, E> {
+pub struct Cell<'engine, P> {
     pub setup: &'engine Setup,
-    pub excitation: &'engine E,
+    pub piece: P,
     /// Start of the cell \[s\].
     pub start: f64,
 }
@@ -37,7 +37,7 @@ pub struct Cell<'engine, E> {
 /// Margins of the left and the right contact.
 type Margins = [[f64; 2]; 2];
 
-impl<E: Excitation> Cell<'_, E> {
+impl<P: Piece> Cell<'_, P> {
     fn bounds(&self) -> Bounds {
         Bounds {
             normal_stiffness: self.setup.normal.stiffness,
@@ -47,11 +47,14 @@ impl<E: Excitation> Cell<'_, E> {
         }
     }
 
+    fn modes(&self, contacts: &[Contact; 2]) -> [Mode; 2] {
+        [0, 1].map(|index| Mode::of(&contacts[index], &self.setup.skin))
+    }
+
     /// Forces and accelerations at `offset` from the start of the cell.
-    #[inline]
+    #[inline(never)]
     pub fn look(&self, offset: f64, disk: &Vector, contacts: &[Contact; 2]) -> Look {
-        let start = self.start;
-        look(self.setup, self.excitation, Instant { start, offset }, disk, contacts)
+        look(self.setup, &self.piece, offset, disk, &self.modes(contacts))
     }
 
     /// The disk at `offset` if nothing happens between `from` and there.
@@ -66,7 +69,8 @@ impl<E: Excitation> Cell<'_, E> {
         if duration <= 0.0 {
             return *from;
         }
-        let rates = |passed: f64, disk: &Vector| self.look(from.offset + passed, disk, &from.contacts).rates;
+        let modes = self.modes(&from.contacts);
+        let rates = |passed: f64, disk: &Vector| rates_of(self.setup, &self.piece, from.offset + passed, disk, &modes);
         let mut node = Node {
             offset,
             disk: advance(&from.disk, first, duration, rates),

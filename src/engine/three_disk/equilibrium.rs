@@ -27,7 +27,7 @@ pub fn equilibrium(setup: &Setup, supports: &[SupportMotion; 2]) -> Result<[f64;
             let normal = [0, 1].map(|axis| at.normal * frame.normal[axis] + at.tangent * frame.tangent[axis]);
             let tangent = [normal[1], -normal[0]];
             // The normal turns by 1/r for a displacement along the tangent.
-            let turning = setup.curvature * at.overlap / at.stretch;
+            let turning = setup.curvature * at.overlap * at.shortness;
             least = least.min(at.overlap);
             for row in 0..2 {
                 force[row] += at.overlap * normal[row];

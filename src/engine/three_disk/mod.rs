@@ -14,7 +14,7 @@ pub mod state;
 pub mod support;
 mod time_step;
 
-use crate::drive::excitation::{Excitation, Instant};
+use crate::drive::excitation::{Excitation, Piece, SupportMotion};
 
 pub use cell::Stuck;
 use cell::{Cell, Course};
@@ -55,11 +55,12 @@ impl<E: Excitation> ThreeDisk<E> {
             contacts: [apart; 2],
             record: Record::default(),
         };
-        let instant = Instant {
+        let cell = Cell {
+            setup: &setup,
+            piece: excitation.piece(start_time),
             start: start_time,
-            offset: 0.0,
         };
-        let look = dynamics::look(&setup, &excitation, instant, &disk, &start.contacts);
+        let look = cell.look(0.0, &disk, &start.contacts);
         start.contacts = look.contacts.map(|force| Contact {
             phase: if force.overlap > 0.0 && force.push > 0.0 {
                 Phase::Stick
@@ -174,10 +175,10 @@ impl<E: Excitation> ThreeDisk<E> {
         self.state.origin + (self.state.cell + ahead) as f64 * self.setup.time_step
     }
 
-    fn cell(&self, start: f64) -> Cell<'_, E> {
+    fn cell(&self, start: f64) -> Cell<'_, E::Piece> {
         Cell {
             setup: &self.setup,
-            excitation: &self.state.excitation,
+            piece: self.state.excitation.piece(start),
             start,
         }
     }
@@ -189,7 +190,7 @@ impl<E: Excitation> ThreeDisk<E> {
         }
         let cell = Cell {
             setup: &self.setup,
-            excitation: &self.state.excitation,
+            piece: self.state.excitation.piece(start),
             start,
         };
         cell.run(&self.state.start, self.setup.time_step, &mut self.course)
@@ -205,11 +206,13 @@ impl<E: Excitation> ThreeDisk<E> {
     /// Forces and accelerations at the time reached.
     pub fn look(&self) -> Look {
         let now = &self.state.now;
-        let instant = Instant {
-            start: self.state.time - now.offset,
-            offset: now.offset,
-        };
-        dynamics::look(&self.setup, &self.state.excitation, instant, &now.disk, &now.contacts)
+        self.cell(self.cell_start(0)).look(now.offset, &now.disk, &now.contacts)
+    }
+
+    /// Torque and motion of the supports at the time reached.
+    pub fn driven(&self) -> (f64, [SupportMotion; 2]) {
+        let (piece, offset) = (self.cell(self.cell_start(0)).piece, self.state.now.offset);
+        (piece.torque(offset), piece.supports(offset))
     }
 }
 

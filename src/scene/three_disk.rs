@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::drive::excitation::{HarmonicTorque, HeldTorque, Piece, RandomSupports, SineSupports};
 use crate::engine::three_disk::{
-    LOST, Look, Node, Phase, Record, Sense, SlidingPoint, State, Stuck, ThreeDisk as Engine, TimeStepLimits, WORK,
-    equilibrium,
+    LOST, Look, Node, Phase, Record, Sense, Setup, SlidingPoint, State, Stuck, ThreeDisk as Engine, TimeStepLimits,
+    WORK, equilibrium,
 };
 use crate::error::{Error, Result, are_sane};
 use crate::measure::BatchMeans;
@@ -252,15 +252,15 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
     }
 
     fn new(_choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
-        let mut setup = rows::setup(values)?;
-        let period = E::period(values);
-        setup.time_step = chosen_time_step(values.real("time_step"), &TimeStepLimits::of(&setup, period))?;
-        let excitation = E::new(start_time, setup.time_step, values);
-        let rest = equilibrium(&setup, &excitation.piece(start_time).supports(0.0)).map_err(|_| {
-            let weight = setup.mass * setup.gravity;
+        let bench = rows::bench(values)?;
+        let limits = TimeStepLimits::of(&bench, E::period(values));
+        let time_step = chosen_time_step(values.real("time_step"), &limits)?;
+        let excitation = E::new(start_time, time_step, values);
+        let rest = equilibrium(&bench, &excitation.piece(start_time).supports(0.0)).map_err(|_| {
+            let weight = bench.mass * bench.gravity;
             Error::parameter(
                 "contact.normal_stiffness",
-                format!("{} N/m", setup.normal.stiffness),
+                format!("{} N/m", bench.normal.stiffness),
                 format!(
                     "so large that the weight {weight} N rests on both contacts with overlaps far below the radius"
                 ),
@@ -269,7 +269,7 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
         })?;
         let place = [rest[0], rest[1] + values.real("disk.drop_height"), 0.0];
         let rates = [0.0, 0.0, values.real("disk.initial_angular_velocity")];
-        let engine = Engine::new(setup, excitation, start_time, place, rates);
+        let engine = Engine::new(Setup::new(bench, time_step), excitation, start_time, place, rates);
         let begin = start_time.max(values.real("measure.start"));
         let Energies {
             kinetic,

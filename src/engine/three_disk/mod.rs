@@ -19,7 +19,7 @@ use crate::drive::excitation::{Excitation, Piece, SupportMotion};
 pub use cell::Stuck;
 use cell::{Cell, Course};
 pub use contact::{Contact, Phase, Sense};
-pub use dynamics::{LOST, Look, Setup, WORK};
+pub use dynamics::{Bench, LOST, Look, Setup, WORK};
 pub use equilibrium::{NoEquilibrium, equilibrium};
 pub use runge_kutta::Vector;
 pub use state::{Node, Record, SlidingPoint, State};

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
 use crate::contact::{ElasticSkin, LinearDashpot};
-use crate::engine::three_disk::{Frame, Setup};
+use crate::engine::three_disk::{Bench, Frame};
 use crate::error::{Error, Result};
 use crate::scene::{Unit, Values, Variable};
 
@@ -330,11 +330,11 @@ fn disk() -> Vec<Variable> {
     ]
 }
 
-/// The engine's setup without its time step.
+/// The disk on its supports.
 ///
 /// # Errors
 /// Supports that do not confine the disk or overlap each other.
-pub fn setup(values: &Values) -> Result<Setup> {
+pub fn bench(values: &Values) -> Result<Bench> {
     let (opening, tilt, radius) = (
         values.real("support.angle"),
         values.real("tilt"),
@@ -358,7 +358,7 @@ pub fn setup(values: &Values) -> Result<Setup> {
         ));
     }
     let stiffness = values.real("contact.normal_stiffness");
-    Ok(Setup {
+    Ok(Bench {
         radius,
         mass: values.real("disk.mass"),
         gravity: values.real("gravity"),
@@ -372,6 +372,5 @@ pub fn setup(values: &Values) -> Result<Setup> {
         },
         frames: [Frame::new(tilt - opening), Frame::new(opening + tilt)],
         curvature: if disks { 0.5 / radius } else { 0.0 },
-        time_step: 0.0,
     })
 }

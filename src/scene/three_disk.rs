@@ -16,7 +16,7 @@ use crate::engine::three_disk::{
 use crate::error::{Error, Result, are_sane};
 use crate::measure::BatchMeans;
 
-use super::{Card, Choice, OutputWriter, Scene, Values, Variable};
+use super::{Card, Choice, OutputWriter, Reached, Scene, Values, Variable};
 pub use drives::ThreeDiskDrive;
 
 /// [`ThreeDisk`] under the torque of an input.
@@ -133,21 +133,50 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
         &self.engine
     }
 
-    /// Runs to `end_time`, reading the angle wherever a batch ends. Looking costs little and changes nothing.
-    fn run(&mut self, end_time: f64) -> Result<()> {
-        while self.report.turning.due() <= end_time {
+    /// Runs to `end_time`, reading the angle wherever a batch ends, or if `stop` says so to the first event before. Says
+    /// when it ended and whether an event ended it. Looking costs little and changes nothing.
+    fn run(&mut self, end_time: f64, stop: bool) -> Result<Reached> {
+        loop {
             let due = self.report.turning.due();
-            self.engine.advance_to(due).map_err(refusal)?;
+            let end = due.min(end_time);
+            if self.engine.advance(end, stop).map_err(refusal)? {
+                let time = self.engine.state().time;
+                return Ok(Reached { time, event: true });
+            }
+            if due > end_time {
+                return Ok(Reached {
+                    time: end_time,
+                    event: false,
+                });
+            }
             let now = &self.engine.state().now;
             self.report.before.get_or_insert(now.record);
             self.report.turning.record(now.angle());
         }
-        self.engine.advance_to(end_time).map_err(refusal)
     }
 
-    fn go_back(&mut self, backup: &ThreeDiskState<E>) {
-        self.engine.restore(&backup.engine);
-        self.report = backup.report.clone();
+    fn go(&mut self, end_time: f64, values: &Values, stop: bool) -> Result<Reached> {
+        let backup = self.state();
+        let from = self.report.time;
+        let upward = self.engine.state().now.disk[4];
+        self.engine.steer(|excitation| excitation.aim(from, values));
+        let checked = |scene: &mut Self| {
+            let reached = scene.run(end_time, stop)?;
+            scene.check(reached.time).map(|()| reached)
+        };
+        let reached = match checked(self) {
+            Ok(reached) => reached,
+            Err(error) => {
+                self.engine.restore(&backup.engine);
+                self.report = backup.report;
+                return Err(error);
+            }
+        };
+        let (now, setup) = (&self.engine.state().now, self.engine.setup());
+        let gained = (now.disk[4] - upward) / (reached.time - from);
+        self.report.reaction_force = -setup.mass * (gained + setup.gravity);
+        self.report.time = reached.time;
+        Ok(reached)
     }
 
     /// Whether the disk is still above its supports and everything is finite.
@@ -232,6 +261,8 @@ fn write_slides(outputs: &mut OutputWriter<'_>, record: &Record) {
 impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
     type State = ThreeDiskState<E>;
 
+    const EVENTS: bool = true;
+
     fn card() -> Card {
         Card {
             scene: NAME,
@@ -286,24 +317,16 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
                 before: None,
             },
         };
-        scene.run(start_time)?;
+        scene.run(start_time, false)?;
         Ok(scene)
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        let backup = self.state();
-        let from = self.report.time;
-        let upward = self.engine.state().now.disk[4];
-        self.engine.steer(|excitation| excitation.aim(from, values));
-        if let Err(error) = self.run(end_time).and_then(|()| self.check(end_time)) {
-            self.go_back(&backup);
-            return Err(error);
-        }
-        let (now, setup) = (&self.engine.state().now, self.engine.setup());
-        let gained = (now.disk[4] - upward) / (end_time - from);
-        self.report.reaction_force = -setup.mass * (gained + setup.gravity);
-        self.report.time = end_time;
-        Ok(())
+        self.go(end_time, values, false).map(|_| ())
+    }
+
+    fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        self.go(end_time, values, true)
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {

@@ -147,14 +147,18 @@ impl<P: Piece> Cell<'_, P> {
         let at_end = self.margins(&end.contacts, last);
         let middle = self.middle(from, first, end, last);
         let look = self.look(middle.offset, &middle.disk, &middle.contacts);
-        let halfway = is_negative(&self.margins(&middle.contacts, &look));
+        let halfway = self.margins(&middle.contacts, &look);
         // What the interpolation shows is believed only if the step shows it too.
-        let bracket = if halfway {
-            let node = self.fly_on(from, &first.rates, middle.offset);
-            Some((node, self.margins_of(&node))).filter(|(_, margins)| is_negative(margins))
+        let suspect = if is_negative(&halfway) {
+            Some(0.5)
         } else {
-            None
+            deepest_dip(now, &halfway, &at_end)
         };
+        let bracket = suspect.and_then(|share| {
+            let offset = from.offset + share * (end.offset - from.offset);
+            let node = self.fly_on(from, &first.rates, offset);
+            Some((node, self.margins_of(&node))).filter(|(_, margins)| is_negative(margins))
+        });
         let (mut high, mut beyond) = match bracket {
             Some(bracket) => bracket,
             None if is_negative(&at_end) => (*end, at_end),
@@ -244,6 +248,30 @@ impl<P: Piece> Cell<'_, P> {
 
 fn is_negative(margins: &Margins) -> bool {
     margins.iter().flatten().any(|margin| *margin < 0.0)
+}
+
+/// Share of a step after which a margin may dip below zero and return, by the parabola through its start, middle and end.
+///
+/// The parabola is good to some thousandths of the margin's swing: dips within a hundredth of it are looked at.
+fn deepest_dip(start: &Margins, middle: &Margins, end: &Margins) -> Option<f64> {
+    let mut found = None;
+    let mut deepest = 0.0;
+    for contact in 0..2 {
+        for which in 0..2 {
+            let (m0, m1, m2) = (start[contact][which], middle[contact][which], end[contact][which]);
+            let (bend, slope) = (2.0 * (m0 + m2 - 2.0 * m1), 4.0 * m1 - 3.0 * m0 - m2);
+            let dips = bend > 0.0 && slope < 0.0 && -slope < 2.0 * bend;
+            if dips && m0 > 0.0 && m2 >= 0.0 {
+                let lowest = m0 - 0.25 * slope * slope / bend;
+                let depth = lowest / (m0 + m1 + m2) - 0.01;
+                if depth < deepest {
+                    deepest = depth;
+                    found = Some(-0.5 * slope / bend);
+                }
+            }
+        }
+    }
+    found
 }
 
 /// The most negative margin that was not followed: the same for mirrored contacts, whichever is the left one.

@@ -122,23 +122,12 @@ impl<E: Excitation> ThreeDisk<E> {
         self.course.end = None;
     }
 
-    /// Advances to `end_time` \[s\].
+    /// Advances to `end_time` \[s\] or, if `stop` says so, to the first event after the present time and not after
+    /// `end_time`; says whether an event ended it.
     ///
     /// # Errors
     /// Events follow each other without end. The state is then of no use.
-    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stuck> {
-        self.advance(end_time, false).map(|_| ())
-    }
-
-    /// Advances to `end_time` \[s\] or to the first event after the present time; says whether an event stopped it.
-    ///
-    /// # Errors
-    /// As [`ThreeDisk::advance_to`].
-    pub fn advance_to_event(&mut self, end_time: f64) -> Result<bool, Stuck> {
-        self.advance(end_time, true)
-    }
-
-    fn advance(&mut self, end_time: f64, stop: bool) -> Result<bool, Stuck> {
+    pub fn advance(&mut self, end_time: f64, stop: bool) -> Result<bool, Stuck> {
         loop {
             let cell_start = self.cell_start(0);
             let next_start = self.cell_start(1);

@@ -15,7 +15,7 @@ pub struct TimeStepLimits {
 
 impl TimeStepLimits {
     /// Radians of the fastest mode in a default step.
-    const DEFAULT: f64 = 0.25;
+    const DEFAULT: f64 = 0.5;
     /// Radians in the largest step.
     const LARGEST: f64 = 1.0;
     /// Steps in a period of the excitation, default and smallest.

@@ -140,7 +140,7 @@ fn run() -> Vec<Variable> {
             Unit::Second,
             0.0..=1.0,
             0.0,
-            "Time step of the integration; 0: a quarter radian of the fastest mode",
+            "Time step of the integration; 0: half a radian of the fastest mode",
         ),
     ]
 }

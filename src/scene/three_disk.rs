@@ -179,6 +179,18 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
         Ok(reached)
     }
 
+    /// Whether the disk, its energies and its forces are finite and far from overflow.
+    fn is_sane(&self) -> bool {
+        let look = self.engine.look();
+        let Energies {
+            kinetic,
+            potential,
+            elastic,
+        } = energies(&self.engine, &look);
+        let forces = look.contacts.iter().flat_map(|at| [at.normal, at.tangential]);
+        self.engine.state().now.is_sane() && are_sane([kinetic, potential, elastic]) && are_sane(forces)
+    }
+
     /// Whether the disk is still above its supports and everything is finite.
     fn check(&self, time: f64) -> Result<()> {
         let (now, setup) = (&self.engine.state().now, self.engine.setup());
@@ -190,7 +202,7 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
                 remedy: remedy.into(),
             })
         };
-        if !now.is_sane() {
+        if !self.is_sane() {
             return refused(
                 "the disk is beyond 1e100 or no longer finite".into(),
                 "Check the amplitudes and the inputs.",
@@ -230,18 +242,6 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
             outputs.real(&name("slip_time"), since.slipping[index]);
             outputs.real(&name("open_time"), since.open[index]);
         }
-    }
-}
-
-/// What the contacts did from `before` until `now`.
-fn since(now: &Record, before: &Record) -> Record {
-    Record {
-        slips: now.slips - before.slips,
-        slipping: [0, 1].map(|index| now.slipping[index] - before.slipping[index]),
-        open: [0, 1].map(|index| now.open[index] - before.open[index]),
-        sliding: std::array::from_fn(|index| now.sliding[index] - before.sliding[index]),
-        slides: std::array::from_fn(|index| now.slides[index] - before.slides[index]),
-        ..*now
     }
 }
 
@@ -333,8 +333,8 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
         let (look, now) = (self.engine.look(), &self.engine.state().now);
         let Report { time, turning, .. } = &self.report;
         let Node { disk, .. } = now;
-        let record = since(&now.record, self.report.before.as_ref().unwrap_or(&now.record));
-        outputs.real("time_step.used", self.engine.setup().time_step);
+        let record = now.record.since(self.report.before.as_ref().unwrap_or(&now.record));
+        outputs.real("chosen_time_step", self.engine.setup().time_step);
         outputs.real("mean_velocity", disk[3]);
         outputs.real("mean_angular_velocity", disk[5]);
         outputs.real("time_averaged_angular_velocity", turning.mean(*time, now.angle()));
@@ -378,22 +378,29 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
     }
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
-        let remedy = "Restore states of the same scene and parameters only.";
+        let refused = || {
+            let remedy = "Restore states of the same scene and parameters only.";
+            Error::state("it cannot be that of this disk on two supports", remedy)
+        };
         let Report {
             time,
             reaction_force,
             turning,
-            ..
+            before,
         } = &state.report;
         let engine = &state.engine;
-        let numbers = are_sane([*time, *reaction_force, engine.origin, engine.time]);
-        let sane = numbers && engine.start.is_sane() && engine.now.is_sane() && engine.excitation.is_sane();
-        let own = &self.engine.state().excitation;
-        let fits = engine.excitation.continues(own) && turning.continues(&self.report.turning, 0.0);
-        if !(sane && fits && engine.time == *time && turning.due() > *time) {
-            return Err(Error::state("it cannot be that of this disk on two supports", remedy));
+        let drives = engine.excitation.continues(&self.engine.state().excitation);
+        let means = turning.continues(&self.report.turning, 0.0) && turning.due() > *time;
+        let record = before.is_none_or(|record| record.is_sane());
+        if !(self.engine.fits(engine, *time) && drives && means && record && are_sane([*reaction_force])) {
+            return Err(refused());
         }
+        let former = self.engine.state().clone();
         self.engine.restore(engine);
+        if !self.is_sane() {
+            self.engine.restore(&former);
+            return Err(refused());
+        }
         self.report = state.report.clone();
         Ok(())
     }

@@ -95,6 +95,17 @@ impl<E: Excitation> ThreeDisk<E> {
         &self.state
     }
 
+    /// Whether `state` at `time` \[s\] can be one of a disk on this grid of time.
+    pub fn fits(&self, state: &State<E>, time: f64) -> bool {
+        let step = self.setup.time_step;
+        let cell_start = state.origin + state.cell as f64 * step;
+        let within = state.time - cell_start;
+        let rounding = 1e-9 * step + 4.0 * f64::EPSILON * (state.time.abs() + state.origin.abs());
+        let nodes = state.start.is_sane() && state.now.is_sane() && state.start.offset == 0.0;
+        let in_cell = (-rounding..=step + rounding).contains(&within) && (within - state.now.offset).abs() <= rounding;
+        state.time == time && state.origin.is_finite() && nodes && in_cell && state.excitation.is_sane()
+    }
+
     /// Goes to a state of this same disk.
     pub fn restore(&mut self, state: &State<E>) {
         self.state = state.clone();

@@ -35,7 +35,7 @@ pub fn rows(drive: Vec<Variable>, drive_outputs: Vec<Variable>) -> Vec<Variable>
     rows.extend(run());
     rows.extend(drive);
     rows.push(Variable::calculated(
-        "time_step.used",
+        "chosen_time_step",
         Unit::Second,
         1e-5,
         "Time step of the integration in use",

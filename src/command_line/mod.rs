@@ -10,6 +10,7 @@ mod scenes;
 #[cfg(test)]
 mod test_scene;
 mod text;
+mod theory;
 
 use std::fmt;
 use std::io;
@@ -33,6 +34,7 @@ enum Command {
     Describe(describe::Describe),
     Fmu(fmu::Fmu),
     Run(run::Run),
+    Theory(theory::Theory),
 }
 
 /// Which scene, as what component: shared by all commands.
@@ -119,6 +121,7 @@ pub fn main() -> ExitCode {
         Command::Describe(describe) => describe.execute(),
         Command::Fmu(fmu) => fmu.execute(),
         Command::Run(run) => run.execute(),
+        Command::Theory(theory) => theory.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

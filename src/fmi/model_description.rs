@@ -187,6 +187,7 @@ fn quantity_name(unit: Unit) -> Option<&'static str> {
         Unit::Newton => "Force",
         Unit::NewtonSecond => "Impulse",
         Unit::Joule => "Energy",
+        Unit::NewtonMetre => "Torque",
         _ => return None,
     })
 }

@@ -7,6 +7,7 @@ pub mod base_drive;
 pub mod packing;
 pub mod ratchet;
 mod simulation;
+pub mod three_disk;
 pub mod values;
 pub mod variables;
 pub mod wedge;

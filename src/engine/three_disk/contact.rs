@@ -89,6 +89,8 @@ pub struct ContactForce {
     /// Rate at which lambda* would move if the skin slipped in the sense of its stretch \[m/s\], along that sense:
     /// `sigma lambda' - mu n' / k_t`. The skin slips as long as it is positive.
     pub slip_rate: f64,
+    /// Size below which the slip rate is rounding \[m/s\].
+    pub slip_rounding: f64,
     /// Power that the contact turns to heat \[W\].
     pub lost_power: f64,
     /// Power of the support on the disk \[W\].
@@ -111,18 +113,19 @@ pub struct Bounds {
 /// What may end a phase, positive as long as it does not: `[first, second]` \[N\].
 ///
 /// Apart: overlap. Relaxing: end of overlap, return of the force. Stick: end of the force; Amonton's limit passed *and*
-/// slip the right way, since at the limit rounding alone passes it. Slip: end of the force, slip no longer the same way.
+/// slip the right way, since at the limit rounding alone passes it. Slip: end of the force, slip the other way. Rates that
+/// are rounding change nothing, or a contact on the verge would change for ever.
 #[inline]
 pub fn margins(contact: &Contact, force: &ContactForce, bounds: &Bounds) -> [f64; 2] {
-    let slip_rate = bounds.tangential_stiffness * bounds.time * force.slip_rate;
+    let per_rate = bounds.tangential_stiffness * bounds.time;
     match contact.phase {
         Phase::Apart => [-bounds.normal_stiffness * force.overlap, f64::INFINITY],
         Phase::Relaxing => [bounds.normal_stiffness * force.overlap, -force.push],
         Phase::Stick => {
             let room = bounds.friction * force.push - bounds.tangential_stiffness * force.stretch.abs();
-            [force.push, room.max(-slip_rate)]
+            [force.push, room.max(per_rate * (force.slip_rounding - force.slip_rate))]
         }
-        Phase::Slip(_) => [force.push, slip_rate],
+        Phase::Slip(_) => [force.push, per_rate * (force.slip_rate + force.slip_rounding)],
     }
 }
 

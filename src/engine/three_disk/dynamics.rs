@@ -41,6 +41,9 @@ pub const WORK: usize = 6;
 /// See [`WORK`].
 pub const LOST: usize = 7;
 
+/// Relative rounding of a slip rate, generously.
+const ROUNDING: f64 = 1e-12;
+
 /// Everything at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
@@ -115,6 +118,7 @@ pub fn look<E: Excitation>(
         (forward[0][1] + forward[1][1]) / mass - setup.gravity,
         (radius * (forces[0].3 + forces[1].3) + torque) / setup.inertia(),
     ];
+    let hurry = (forces[0].0.abs() + forces[1].0.abs()) / mass + setup.gravity;
     let contacts: [ContactForce; 2] = std::array::from_fn(|index| {
         let (at, frame, support, contact) = (&moves[index], &setup.frames[index], &supports[index], &contacts[index]);
         let (push, normal, stretch, tangential) = forces[index];
@@ -128,6 +132,9 @@ pub fn look<E: Excitation>(
             _ => 1.0_f64.copysign(stretch),
         };
         let slip_rate = sense * at.slide_rate - skin.friction * force_rate / skin.stiffness;
+        let rates_in_it =
+            at.slide_rate.abs() + at.overlap_rate.abs() + radius * (disk[5].abs() + support.rates[2].abs());
+        let force_rates = law.stiffness * rates_in_it + law.damping * hurry;
         let lost_power = match contact.phase {
             Phase::Apart => 0.0,
             Phase::Relaxing => -law.stiffness * at.overlap * at.overlap_rate,
@@ -143,6 +150,7 @@ pub fn look<E: Excitation>(
             slide: at.slide,
             stretch,
             slip_rate,
+            slip_rounding: ROUNDING * (rates_in_it + skin.friction / skin.stiffness * force_rates),
             lost_power,
             input_power: carried - tangential * radius * support.rates[2],
         }

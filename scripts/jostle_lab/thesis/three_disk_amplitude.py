@@ -181,8 +181,12 @@ def _onset(line: Line) -> float:
 
 
 def _lasting(found: Sequence[Line]) -> Statement:
-    opened = [torque for line in found for torque, turned in zip(line.torques, line.found, strict=True) if turned.opened]
-    return Statement("5", "the disk never leaves its supports", f"{len(opened)} runs with an open contact", verdict(not opened))
+    opened = [
+        torque for line in found for torque, turned in zip(line.torques, line.found, strict=True) if turned.opened
+    ]
+    return Statement(
+        "5", "the disk never leaves its supports", f"{len(opened)} runs with an open contact", verdict(not opened)
+    )
 
 
 def logarithmic(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Product:
@@ -293,7 +297,9 @@ def closed_form(laboratory: Laboratory, quick: bool, _seeds: int | None = None) 
         Statement(
             "5.2.4",
             "5.9 is exact",
-            "with the overlap of the soft contacts in A_S1 and A_S2 there remain " + told(soft) + ", the inertia of the "
+            "with the overlap of the soft contacts in A_S1 and A_S2 there remain "
+            + told(soft)
+            + ", the inertia of the "
             "centre, which goes with omega_e^2 (figure closed-form)",
             Verdict.AGREES if max(soft.values()) < 2e-3 else Verdict.PARTLY,
         ),

@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use clap::{Args, ValueEnum};
 use jostle::Error;
 use jostle::measure::three_disk::{
-    Acceleration, Corner, HarmonicTorque, Limits, Setting, closed_form, closed_form_range, critical_tilt, cycle,
-    detachment_friction, detachment_tilt, limits, mean_torques, point, regime, relaxed,
+    Acceleration, Corner, HarmonicTorque, Limits, Setting, closed_form, closed_form_range, closed_form_with_inertia,
+    critical_tilt, cycle, detachment_friction, detachment_tilt, limits, mean_torques, point, regime, relaxed,
 };
 
 use super::{Failure, text};
@@ -240,7 +240,7 @@ fn columns(quantity: Quantity, values: &[f64; 13]) -> Result<Columns, Error> {
             ("regime", f64::from(regime(&setting, amplitude).number())),
             ("critical_tilt", critical_tilt(&setting, amplitude).unwrap_or(f64::NAN)),
         ]),
-        Quantity::Velocity => velocity(&setting, &torque_limits, amplitude, frequency)?,
+        Quantity::Velocity => velocity(&setting, &torque_limits, stiffness, amplitude, frequency)?,
         Quantity::Torques => {
             let torques = mean_torques(&setting);
             named(&[
@@ -256,7 +256,13 @@ fn columns(quantity: Quantity, values: &[f64; 13]) -> Result<Columns, Error> {
 }
 
 /// The cycle, and the closed form where it holds.
-fn velocity(setting: &Setting, limits: &Limits, amplitude: f64, frequency: f64) -> Result<Columns, Error> {
+fn velocity(
+    setting: &Setting,
+    limits: &Limits,
+    stiffness: f64,
+    amplitude: f64,
+    frequency: f64,
+) -> Result<Columns, Error> {
     if setting.friction <= 0.0 || setting.tilt.abs() >= detachment_tilt(setting) || !limits.lower().is_finite() {
         let allowed = format!(
             "above 0 and below {}, where a slide opens a contact at this tilt",
@@ -276,6 +282,10 @@ fn velocity(setting: &Setting, limits: &Limits, amplitude: f64, frequency: f64) 
         ("angular_velocity", motion.angular_velocity),
         ("resting", motion.resting),
         ("closed_form", closed_form(setting, limits, torque).unwrap_or(f64::NAN)),
+        (
+            "closed_form_with_inertia",
+            closed_form_with_inertia(setting, limits, stiffness, torque).unwrap_or(f64::NAN),
+        ),
     ]))
 }
 

@@ -13,15 +13,16 @@
 //! | `slide` | one slide under a harmonic torque, from rest to rest | 5.6 to 5.8 |
 //! | `closed_form` | mean angular velocity while the disk rests between slides | 5.9 |
 //! | `cycle` | the same for any amplitude, by marching through slides and rests | from 5.6 |
+//! | `inertia` | what the inertia of the centre adds to 5.9 | first order in `m omega_e^2 / k_n` |
 //! | `mean_torques` | torques at the corners and their mean | 5.15 to 5.21 |
 //! | `relaxed` | limits and corners with the overlap of soft contacts | from 4.1, 4.23, 4.24 |
 //!
-//! Not here: inertia and damping of the centre of the disk, and the ringing of the skin after a stop. They vanish as the
-//! torque becomes slow.
+//! Not here: how the centre of the disk and the skin ring after a stop. That vanishes as the torque becomes slow.
 
 mod balance;
 mod closed_form;
 mod cycle;
+mod inertia;
 mod limits;
 mod mean_torques;
 mod regime;
@@ -33,6 +34,7 @@ mod slide;
 pub use balance::{Acceleration, Tangential, normal_forces};
 pub use closed_form::{closed_form, closed_form_range};
 pub use cycle::{Cycle, cycle};
+pub use inertia::closed_form_with_inertia;
 pub use limits::{Limits, critical_tilt, detachment_friction, detachment_tilt, limits};
 pub use mean_torques::{MeanTorques, mean_torques};
 pub use regime::{Regime, regime};

@@ -527,6 +527,50 @@ fn soft_limits_tend_to_rigid_ones() {
     assert!((shift / (normal / 2e5 / 3.0) - 1.0).abs() < 1e-2, "{shift}");
 }
 
+/// The kick by a path of its own: equilibria at two torques by elimination, their difference as the velocity, the stop of
+/// the centre with its spin by four more equations.
+#[test]
+fn kicks_stop_the_centre() {
+    let stiffness = 1e3;
+    for setting in settings().into_iter().filter(|s| s.tilt != 0.0) {
+        for (corner, sense) in [(Corner::S2, 1.0), (Corner::S1, -1.0)] {
+            let slope = -sense * setting.friction;
+            // One contact slides, the weaker one; the torque grows by one unit a second.
+            let slides = if setting.tilt > 0.0 {
+                [0.0, -slope, 0.0, 1.0]
+            } else {
+                [-slope, 0.0, 1.0, 0.0]
+            };
+            let (s_1, c_1) = setting.left_angle().sin_cos();
+            let (s_2, c_2) = setting.right_angle().sin_cos();
+            let newton = [[s_1, -s_2, c_1, c_2], [c_1, c_2, -s_1, s_2]];
+            let torque = [0.0, 0.0, setting.radius, setting.radius];
+            let [n_1, n_2, ..] = solve([newton[0], newton[1], slides, torque], [0.0, 0.0, 0.0, -sense]);
+            // Centre and spin: overlaps follow the forces, the other contact sticks.
+            let (r, k) = (setting.radius, stiffness);
+            let sticks = if setting.tilt > 0.0 {
+                [c_1, -s_1, r]
+            } else {
+                [c_2, s_2, r]
+            };
+            let [x, y, spin] = solve([[s_1, c_1, 0.0], [-s_2, c_2, 0.0], sticks], [-n_1 / k, -n_2 / k, 0.0]);
+            // Impulses N_1, N_2 with friction stop x and y; the spin that is left is the third unknown.
+            let m = setting.mass;
+            let rows = [
+                [s_1 + slope * c_1, -s_2 + slope * c_2, 0.0],
+                [c_1 - slope * s_1, c_2 + slope * s_2, 0.0],
+                [r * slope, r * slope, -setting.inertia()],
+            ];
+            let [_, _, left] = solve(rows, [-m * x, -m * y, -setting.inertia() * spin]);
+            let found = inertia::kick(&setting, stiffness, corner);
+            assert!(
+                (found - sense * left).abs() < 1e-12 * left.abs().max(1e-3 / k),
+                "{found} {left} {setting:?}"
+            );
+        }
+    }
+}
+
 /// The forces at a soft corner, put into the equations by hand at the angles that the overlaps give.
 #[test]
 fn soft_corners_balance() {

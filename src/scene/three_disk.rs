@@ -8,15 +8,15 @@ mod rows;
 
 use serde::{Deserialize, Serialize};
 
-use crate::drive::excitation::{HarmonicTorque, HeldTorque, Instant, RandomSupports, SineSupports};
+use crate::drive::excitation::{HarmonicTorque, HeldTorque, Piece, RandomSupports, SineSupports};
 use crate::engine::three_disk::{
-    LOST, Look, Node, Phase, Record, Sense, SlidingPoint, State, Stuck, ThreeDisk as Engine, TimeStepLimits, WORK,
-    equilibrium,
+    LOST, Look, Node, Phase, Record, Sense, Setup, SlidingPoint, State, Stuck, ThreeDisk as Engine, TimeStepLimits,
+    WORK, equilibrium,
 };
 use crate::error::{Error, Result, are_sane};
 use crate::measure::BatchMeans;
 
-use super::{Card, Choice, OutputWriter, Scene, Values, Variable};
+use super::{Card, Choice, OutputWriter, Reached, Scene, Values, Variable};
 pub use drives::ThreeDiskDrive;
 
 /// [`ThreeDisk`] under the torque of an input.
@@ -133,21 +133,62 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
         &self.engine
     }
 
-    /// Runs to `end_time`, reading the angle wherever a batch ends. Looking costs little and changes nothing.
-    fn run(&mut self, end_time: f64) -> Result<()> {
-        while self.report.turning.due() <= end_time {
+    /// Runs to `end_time`, reading the angle wherever a batch ends, or if `stop` says so to the first event before. Says
+    /// when it ended and whether an event ended it. Looking costs little and changes nothing.
+    fn run(&mut self, end_time: f64, stop: bool) -> Result<Reached> {
+        loop {
             let due = self.report.turning.due();
-            self.engine.advance_to(due).map_err(refusal)?;
+            let end = due.min(end_time);
+            if self.engine.advance(end, stop).map_err(refusal)? {
+                let time = self.engine.state().time;
+                return Ok(Reached { time, event: true });
+            }
+            if due > end_time {
+                return Ok(Reached {
+                    time: end_time,
+                    event: false,
+                });
+            }
             let now = &self.engine.state().now;
             self.report.before.get_or_insert(now.record);
             self.report.turning.record(now.angle());
         }
-        self.engine.advance_to(end_time).map_err(refusal)
     }
 
-    fn go_back(&mut self, backup: &ThreeDiskState<E>) {
-        self.engine.restore(&backup.engine);
-        self.report = backup.report.clone();
+    fn go(&mut self, end_time: f64, values: &Values, stop: bool) -> Result<Reached> {
+        let backup = self.state();
+        let from = self.report.time;
+        let upward = self.engine.state().now.disk[4];
+        self.engine.steer(|excitation| excitation.aim(from, values));
+        let checked = |scene: &mut Self| {
+            let reached = scene.run(end_time, stop)?;
+            scene.check(reached.time).map(|()| reached)
+        };
+        let reached = match checked(self) {
+            Ok(reached) => reached,
+            Err(error) => {
+                self.engine.restore(&backup.engine);
+                self.report = backup.report;
+                return Err(error);
+            }
+        };
+        let (now, setup) = (&self.engine.state().now, self.engine.setup());
+        let gained = (now.disk[4] - upward) / (reached.time - from);
+        self.report.reaction_force = -setup.mass * (gained + setup.gravity);
+        self.report.time = reached.time;
+        Ok(reached)
+    }
+
+    /// Whether the disk, its energies and its forces are finite and far from overflow.
+    fn is_sane(&self) -> bool {
+        let look = self.engine.look();
+        let Energies {
+            kinetic,
+            potential,
+            elastic,
+        } = energies(&self.engine, &look);
+        let forces = look.contacts.iter().flat_map(|at| [at.normal, at.tangential]);
+        self.engine.state().now.is_sane() && are_sane([kinetic, potential, elastic]) && are_sane(forces)
     }
 
     /// Whether the disk is still above its supports and everything is finite.
@@ -161,7 +202,7 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
                 remedy: remedy.into(),
             })
         };
-        if !now.is_sane() {
+        if !self.is_sane() {
             return refused(
                 "the disk is beyond 1e100 or no longer finite".into(),
                 "Check the amplitudes and the inputs.",
@@ -204,18 +245,6 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
     }
 }
 
-/// What the contacts did from `before` until `now`.
-fn since(now: &Record, before: &Record) -> Record {
-    Record {
-        slips: now.slips - before.slips,
-        slipping: [0, 1].map(|index| now.slipping[index] - before.slipping[index]),
-        open: [0, 1].map(|index| now.open[index] - before.open[index]),
-        sliding: std::array::from_fn(|index| now.sliding[index] - before.sliding[index]),
-        slides: std::array::from_fn(|index| now.slides[index] - before.slides[index]),
-        ..*now
-    }
-}
-
 fn write_slides(outputs: &mut OutputWriter<'_>, record: &Record) {
     let slid = |point: SlidingPoint| record.sliding[point as usize] > 0.0;
     let regime = 1 + i64::from(slid(SlidingPoint::S1)) + i64::from(slid(SlidingPoint::S2));
@@ -231,6 +260,8 @@ fn write_slides(outputs: &mut OutputWriter<'_>, record: &Record) {
 
 impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
     type State = ThreeDiskState<E>;
+
+    const EVENTS: bool = true;
 
     fn card() -> Card {
         Card {
@@ -252,19 +283,15 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
     }
 
     fn new(_choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
-        let mut setup = rows::setup(values)?;
-        let period = E::period(values);
-        setup.time_step = chosen_time_step(values.real("time_step"), &TimeStepLimits::of(&setup, period))?;
-        let excitation = E::new(start_time, setup.time_step, values);
-        let start = Instant {
-            start: start_time,
-            offset: 0.0,
-        };
-        let rest = equilibrium(&setup, &excitation.supports(start)).map_err(|_| {
-            let weight = setup.mass * setup.gravity;
+        let bench = rows::bench(values)?;
+        let limits = TimeStepLimits::of(&bench, E::period(values));
+        let time_step = chosen_time_step(values.real("time_step"), &limits)?;
+        let excitation = E::new(start_time, time_step, values);
+        let rest = equilibrium(&bench, &excitation.piece(start_time).supports(0.0)).map_err(|_| {
+            let weight = bench.mass * bench.gravity;
             Error::parameter(
                 "contact.normal_stiffness",
-                format!("{} N/m", setup.normal.stiffness),
+                format!("{} N/m", bench.normal.stiffness),
                 format!(
                     "so large that the weight {weight} N rests on both contacts with overlaps far below the radius"
                 ),
@@ -273,7 +300,7 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
         })?;
         let place = [rest[0], rest[1] + values.real("disk.drop_height"), 0.0];
         let rates = [0.0, 0.0, values.real("disk.initial_angular_velocity")];
-        let engine = Engine::new(setup, excitation, start_time, place, rates);
+        let engine = Engine::new(Setup::new(bench, time_step), excitation, start_time, place, rates);
         let begin = start_time.max(values.real("measure.start"));
         let Energies {
             kinetic,
@@ -290,32 +317,24 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
                 before: None,
             },
         };
-        scene.run(start_time)?;
+        scene.run(start_time, false)?;
         Ok(scene)
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        let backup = self.state();
-        let from = self.report.time;
-        let upward = self.engine.state().now.disk[4];
-        self.engine.steer(|excitation| excitation.aim(from, values));
-        if let Err(error) = self.run(end_time).and_then(|()| self.check(end_time)) {
-            self.go_back(&backup);
-            return Err(error);
-        }
-        let (now, setup) = (&self.engine.state().now, self.engine.setup());
-        let gained = (now.disk[4] - upward) / (end_time - from);
-        self.report.reaction_force = -setup.mass * (gained + setup.gravity);
-        self.report.time = end_time;
-        Ok(())
+        self.go(end_time, values, false).map(|_| ())
+    }
+
+    fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        self.go(end_time, values, true)
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
-        let (look, State { now, excitation, .. }) = (self.engine.look(), self.engine.state());
+        let (look, now) = (self.engine.look(), &self.engine.state().now);
         let Report { time, turning, .. } = &self.report;
         let Node { disk, .. } = now;
-        let record = since(&now.record, self.report.before.as_ref().unwrap_or(&now.record));
-        outputs.real("time_step.used", self.engine.setup().time_step);
+        let record = now.record.since(self.report.before.as_ref().unwrap_or(&now.record));
+        outputs.real("chosen_time_step", self.engine.setup().time_step);
         outputs.real("mean_velocity", disk[3]);
         outputs.real("mean_angular_velocity", disk[5]);
         outputs.real("time_averaged_angular_velocity", turning.mean(*time, now.angle()));
@@ -324,11 +343,8 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
             turning.standard_error(),
         );
         outputs.real("base.reaction_force", self.report.reaction_force);
-        let instant = Instant {
-            start: time - now.offset,
-            offset: now.offset,
-        };
-        excitation.write(instant, &mut outputs);
+        let (torque, supports) = self.engine.driven();
+        E::write(&mut outputs, torque, &supports);
         let Energies {
             kinetic,
             potential,
@@ -362,22 +378,29 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
     }
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
-        let remedy = "Restore states of the same scene and parameters only.";
+        let refused = || {
+            let remedy = "Restore states of the same scene and parameters only.";
+            Error::state("it cannot be that of this disk on two supports", remedy)
+        };
         let Report {
             time,
             reaction_force,
             turning,
-            ..
+            before,
         } = &state.report;
         let engine = &state.engine;
-        let numbers = are_sane([*time, *reaction_force, engine.origin, engine.time]);
-        let sane = numbers && engine.start.is_sane() && engine.now.is_sane() && engine.excitation.is_sane();
-        let own = &self.engine.state().excitation;
-        let fits = engine.excitation.continues(own) && turning.continues(&self.report.turning, 0.0);
-        if !(sane && fits && engine.time == *time && turning.due() > *time) {
-            return Err(Error::state("it cannot be that of this disk on two supports", remedy));
+        let drives = engine.excitation.continues(&self.engine.state().excitation);
+        let means = turning.continues(&self.report.turning, 0.0) && turning.due() > *time;
+        let record = before.is_none_or(|record| record.is_sane());
+        if !(self.engine.fits(engine, *time) && drives && means && record && are_sane([*reaction_force])) {
+            return Err(refused());
         }
+        let former = self.engine.state().clone();
         self.engine.restore(engine);
+        if !self.is_sane() {
+            self.engine.restore(&former);
+            return Err(refused());
+        }
         self.report = state.report.clone();
         Ok(())
     }

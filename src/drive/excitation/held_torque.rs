@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Excitation, Instant};
+use super::{Excitation, Piece};
 use crate::error::are_sane;
 
 /// `torque + rate (t - since)`: zero-order hold with rate 0, first order otherwise.
@@ -32,11 +32,28 @@ impl HeldTorque {
     }
 }
 
-impl Excitation for HeldTorque {
+/// The torque in one cell: at its start \[N.m\], and its rate \[N.m/s\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearTorque {
+    torque: f64,
+    rate: f64,
+}
+
+impl Piece for LinearTorque {
     #[inline]
-    fn torque(&self, instant: Instant) -> f64 {
-        // The cell's start first: the difference keeps its digits in long runs.
-        self.torque + self.rate * ((instant.start - self.since) + instant.offset)
+    fn torque(&self, offset: f64) -> f64 {
+        self.torque + self.rate * offset
+    }
+}
+
+impl Excitation for HeldTorque {
+    type Piece = LinearTorque;
+
+    fn piece(&self, start: f64) -> LinearTorque {
+        LinearTorque {
+            torque: self.torque + self.rate * (start - self.since),
+            rate: self.rate,
+        }
     }
 
     fn is_sane(&self) -> bool {

@@ -33,38 +33,30 @@ impl SupportMotion {
     };
 }
 
-/// An instant: start of a cell of the engine's grid of time \[s\], and the offset from it \[s\].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Instant {
-    /// Start of the cell.
-    pub start: f64,
-    /// Time since.
-    pub offset: f64,
-}
-
-impl Instant {
-    /// Time \[s\].
+/// Torque on the disk and motion of the supports in one cell of the engine's grid of time, smooth in it.
+pub trait Piece: Copy {
+    /// Torque on the disk \[N.m\], counter-clockwise, `offset` \[s\] after the start of the cell.
     #[inline]
-    pub fn time(self) -> f64 {
-        self.start + self.offset
-    }
-}
-
-/// Torque on the disk and motion of the supports as functions of time, smooth inside each cell of the grid.
-///
-/// It is part of the state: what changes in it is saved and restored.
-pub trait Excitation: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static {
-    /// Torque on the disk \[N.m\], counter-clockwise.
-    #[inline]
-    fn torque(&self, _instant: Instant) -> f64 {
+    fn torque(&self, _offset: f64) -> f64 {
         0.0
     }
 
-    /// Motion of the left and the right support.
+    /// Motion of the left and the right support, `offset` \[s\] after the start of the cell.
     #[inline]
-    fn supports(&self, _instant: Instant) -> [SupportMotion; 2] {
+    fn supports(&self, _offset: f64) -> [SupportMotion; 2] {
         [SupportMotion::REST; 2]
     }
+}
+
+/// What drives the disk, cell by cell of the grid of time.
+///
+/// It is part of the state: what changes in it is saved and restored.
+pub trait Excitation: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static {
+    /// What it does in one cell.
+    type Piece: Piece;
+
+    /// What it does in the present cell, which begins at `start` \[s\].
+    fn piece(&self, start: f64) -> Self::Piece;
 
     /// Goes to the next cell, which lasts as long as the one before.
     #[inline]
@@ -72,4 +64,30 @@ pub trait Excitation: Clone + PartialEq + Serialize + DeserializeOwned + Send + 
 
     /// Whether all its numbers are finite and far from overflow.
     fn is_sane(&self) -> bool;
+}
+
+/// Sine and cosine of a small angle \[rad\], exact to rounding up to 0.4 and useful up to 1.
+#[inline]
+fn small_sine_cosine(angle: f64) -> (f64, f64) {
+    let x = angle * angle;
+    let sine = 1.0 - x / 6.0 * (1.0 - x / 20.0 * (1.0 - x / 42.0 * (1.0 - x / 72.0 * (1.0 - x / 110.0))));
+    let cosine =
+        1.0 - x / 2.0 * (1.0 - x / 12.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0 * (1.0 - x / 90.0 * (1.0 - x / 132.0)))));
+    (angle * sine, cosine)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_angles_are_exact() {
+        for angle in [0.0_f64, 1e-9, -0.1, 0.3, 0.4] {
+            let (sine, cosine) = small_sine_cosine(angle);
+            assert!(
+                (sine - angle.sin()).abs() < 2e-16 && (cosine - angle.cos()).abs() < 3e-16,
+                "{angle}"
+            );
+        }
+    }
 }

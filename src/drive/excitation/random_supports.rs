@@ -5,7 +5,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use super::{Excitation, Instant, SupportMotion};
+use super::{Excitation, Piece, SupportMotion};
 use crate::error::are_sane;
 
 /// Which of the runs that are equally likely as the drawn one is taken. Means of such pairs scatter less.
@@ -188,23 +188,38 @@ fn draw(generator: &mut Pcg64, sign: NoiseSign) -> Phases {
     }
 }
 
-impl Excitation for RandomSupports {
+/// The motion in one cell: coefficients of 1, s, s^2, s^3 with s the time since its start, for x, y and angle of both
+/// supports.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CubicSupports([[[f64; 4]; 3]; 2]);
+
+impl Piece for CubicSupports {
     #[inline]
-    fn supports(&self, instant: Instant) -> [SupportMotion; 2] {
-        let (h, u) = (self.duration, instant.offset / self.duration);
-        std::array::from_fn(|support| {
-            let mut motion = SupportMotion::REST;
-            for (row, amplitude) in self.amplitudes.into_iter().enumerate() {
-                let ([x, v], [next_x, next_v]) = (self.now[support][row], self.next[support][row]);
-                let (rise, slope, next_slope) = (next_x - x, h * v, h * next_v);
-                let square = 3.0 * rise - 2.0 * slope - next_slope;
-                let cube = slope + next_slope - 2.0 * rise;
-                motion.place[row] = amplitude * (x + u * (slope + u * (square + u * cube)));
-                motion.rates[row] = amplitude * (slope + u * (2.0 * square + u * 3.0 * cube)) / h;
-                motion.accelerations[row] = amplitude * (2.0 * square + u * 6.0 * cube) / (h * h);
-            }
-            motion
+    fn supports(&self, offset: f64) -> [SupportMotion; 2] {
+        let s = offset;
+        self.0.map(|cubics| SupportMotion {
+            place: cubics.map(|[c0, c1, c2, c3]| c0 + s * (c1 + s * (c2 + s * c3))),
+            rates: cubics.map(|[_, c1, c2, c3]| c1 + s * (2.0 * c2 + s * (3.0 * c3))),
+            accelerations: cubics.map(|[_, _, c2, c3]| 2.0 * c2 + s * (6.0 * c3)),
         })
+    }
+}
+
+impl Excitation for RandomSupports {
+    type Piece = CubicSupports;
+
+    fn piece(&self, _start: f64) -> CubicSupports {
+        let h = self.duration;
+        CubicSupports(std::array::from_fn(|support| {
+            std::array::from_fn(|row| {
+                let ([x, v], [next_x, next_v]) = (self.now[support][row], self.next[support][row]);
+                let amplitude = self.amplitudes[row];
+                let mean = (next_x - x) / h;
+                let square = (3.0 * mean - 2.0 * v - next_v) / h;
+                let cube = (v + next_v - 2.0 * mean) / (h * h);
+                [amplitude * x, amplitude * v, amplitude * square, amplitude * cube]
+            })
+        }))
     }
 
     #[inline]

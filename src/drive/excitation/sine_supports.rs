@@ -1,9 +1,11 @@
 //! Supports that move together on a line, or one behind the other by a phase.
 
+use std::f64::consts::TAU;
+
 use serde::{Deserialize, Serialize};
 
-use super::{Excitation, Instant, SupportMotion};
-use crate::drive::{Drive, Sine};
+use super::{Excitation, Piece, SupportMotion, small_sine_cosine};
+use crate::drive::Sine;
 use crate::error::are_sane;
 
 /// Both supports on a sine along one direction, the right one ahead by a phase.
@@ -17,22 +19,53 @@ pub struct SineSupports {
     pub direction: [f64; 2],
 }
 
-impl Excitation for SineSupports {
+/// The motion in one cell, by the sums of angles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TurningSupports {
+    angular_frequency: f64,
+    direction: [f64; 2],
+    /// Sine and cosine of the phase of each support at the start of the cell, times the amplitude \[m\].
+    phases: [[f64; 2]; 2],
+}
+
+impl Piece for TurningSupports {
     #[inline]
-    fn supports(&self, instant: Instant) -> [SupportMotion; 2] {
-        let right = Sine {
-            phase: self.sine.phase + self.phase_difference,
-            ..self.sine
-        };
-        [self.sine, right].map(|sine| {
-            let motion = sine.motion(instant.time());
-            let [x, y] = self.direction;
+    fn supports(&self, offset: f64) -> [SupportMotion; 2] {
+        let (sine, cosine) = small_sine_cosine(self.angular_frequency * offset);
+        let [x, y] = self.direction;
+        self.phases.map(|[from_sine, from_cosine]| {
+            let displacement = from_sine * cosine + from_cosine * sine;
+            let velocity = self.angular_frequency * (from_cosine * cosine - from_sine * sine);
+            let acceleration = -self.angular_frequency * self.angular_frequency * displacement;
             SupportMotion {
-                place: [motion.displacement * x, motion.displacement * y, 0.0],
-                rates: [motion.velocity * x, motion.velocity * y, 0.0],
-                accelerations: [motion.acceleration * x, motion.acceleration * y, 0.0],
+                place: [displacement * x, displacement * y, 0.0],
+                rates: [velocity * x, velocity * y, 0.0],
+                accelerations: [acceleration * x, acceleration * y, 0.0],
             }
         })
+    }
+}
+
+impl Excitation for SineSupports {
+    type Piece = TurningSupports;
+
+    fn piece(&self, start: f64) -> TurningSupports {
+        let Sine {
+            amplitude,
+            frequency,
+            phase,
+        } = self.sine;
+        // Whole periods go first: the argument keeps its digits however long the run.
+        let turned = TAU * (frequency * start).fract() + phase;
+        let phases = [turned, turned + self.phase_difference].map(|phase| {
+            let (sine, cosine) = phase.sin_cos();
+            [amplitude * sine, amplitude * cosine]
+        });
+        TurningSupports {
+            angular_frequency: TAU * frequency,
+            direction: self.direction,
+            phases,
+        }
     }
 
     fn is_sane(&self) -> bool {

@@ -1,9 +1,9 @@
 //! One cell of the grid of time: smooth steps from event to event.
 
-use crate::drive::excitation::{Excitation, Instant};
+use crate::drive::excitation::Piece;
 
 use super::contact::{Bounds, Contact, after, margins};
-use super::dynamics::{Look, Setup, look};
+use super::dynamics::{Look, Mode, Setup, look, rates_of};
 use super::runge_kutta::{Vector, advance};
 use super::state::Node;
 
@@ -27,9 +27,9 @@ pub struct Stuck {
 }
 
 /// One cell: what is fixed, what drives, where it starts.
-pub struct Cell<'engine, E> {
+pub struct Cell<'engine, P> {
     pub setup: &'engine Setup,
-    pub excitation: &'engine E,
+    pub piece: P,
     /// Start of the cell \[s\].
     pub start: f64,
 }
@@ -37,7 +37,7 @@ pub struct Cell<'engine, E> {
 /// Margins of the left and the right contact.
 type Margins = [[f64; 2]; 2];
 
-impl<E: Excitation> Cell<'_, E> {
+impl<P: Piece> Cell<'_, P> {
     fn bounds(&self) -> Bounds {
         Bounds {
             normal_stiffness: self.setup.normal.stiffness,
@@ -47,11 +47,14 @@ impl<E: Excitation> Cell<'_, E> {
         }
     }
 
+    fn modes(&self, contacts: &[Contact; 2]) -> [Mode; 2] {
+        [0, 1].map(|index| Mode::of(&contacts[index], &self.setup.skin))
+    }
+
     /// Forces and accelerations at `offset` from the start of the cell.
-    #[inline]
+    #[inline(never)]
     pub fn look(&self, offset: f64, disk: &Vector, contacts: &[Contact; 2]) -> Look {
-        let start = self.start;
-        look(self.setup, self.excitation, Instant { start, offset }, disk, contacts)
+        look(self.setup, &self.piece, offset, disk, &self.modes(contacts))
     }
 
     /// The disk at `offset` if nothing happens between `from` and there.
@@ -66,7 +69,8 @@ impl<E: Excitation> Cell<'_, E> {
         if duration <= 0.0 {
             return *from;
         }
-        let rates = |passed: f64, disk: &Vector| self.look(from.offset + passed, disk, &from.contacts).rates;
+        let modes = self.modes(&from.contacts);
+        let rates = |passed: f64, disk: &Vector| rates_of(self.setup, &self.piece, from.offset + passed, disk, &modes);
         let mut node = Node {
             offset,
             disk: advance(&from.disk, first, duration, rates),
@@ -143,14 +147,18 @@ impl<E: Excitation> Cell<'_, E> {
         let at_end = self.margins(&end.contacts, last);
         let middle = self.middle(from, first, end, last);
         let look = self.look(middle.offset, &middle.disk, &middle.contacts);
-        let halfway = is_negative(&self.margins(&middle.contacts, &look));
+        let halfway = self.margins(&middle.contacts, &look);
         // What the interpolation shows is believed only if the step shows it too.
-        let bracket = if halfway {
-            let node = self.fly_on(from, &first.rates, middle.offset);
-            Some((node, self.margins_of(&node))).filter(|(_, margins)| is_negative(margins))
+        let suspect = if is_negative(&halfway) {
+            Some(0.5)
         } else {
-            None
+            deepest_dip(now, &halfway, &at_end)
         };
+        let bracket = suspect.and_then(|share| {
+            let offset = from.offset + share * (end.offset - from.offset);
+            let node = self.fly_on(from, &first.rates, offset);
+            Some((node, self.margins_of(&node))).filter(|(_, margins)| is_negative(margins))
+        });
         let (mut high, mut beyond) = match bracket {
             Some(bracket) => bracket,
             None if is_negative(&at_end) => (*end, at_end),
@@ -240,6 +248,30 @@ impl<E: Excitation> Cell<'_, E> {
 
 fn is_negative(margins: &Margins) -> bool {
     margins.iter().flatten().any(|margin| *margin < 0.0)
+}
+
+/// Share of a step after which a margin may dip below zero and return, by the parabola through its start, middle and end.
+///
+/// The parabola is good to some thousandths of the margin's swing: dips within a hundredth of it are looked at.
+fn deepest_dip(start: &Margins, middle: &Margins, end: &Margins) -> Option<f64> {
+    let mut found = None;
+    let mut deepest = 0.0;
+    for contact in 0..2 {
+        for which in 0..2 {
+            let (m0, m1, m2) = (start[contact][which], middle[contact][which], end[contact][which]);
+            let (bend, slope) = (2.0 * (m0 + m2 - 2.0 * m1), 4.0 * m1 - 3.0 * m0 - m2);
+            let dips = bend > 0.0 && slope < 0.0 && -slope < 2.0 * bend;
+            if dips && m0 > 0.0 && m2 >= 0.0 {
+                let lowest = m0 - 0.25 * slope * slope / bend;
+                let depth = lowest / (m0 + m1 + m2) - 0.01;
+                if depth < deepest {
+                    deepest = depth;
+                    found = Some(-0.5 * slope / bend);
+                }
+            }
+        }
+    }
+    found
 }
 
 /// The most negative margin that was not followed: the same for mirrored contacts, whichever is the left one.

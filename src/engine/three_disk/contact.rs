@@ -110,11 +110,13 @@ pub struct Bounds {
     pub time: f64,
 }
 
+/// Relative rounding of a stretch, generously.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// What may end a phase, positive as long as it does not: `[first, second]` \[N\].
 ///
-/// Apart: overlap. Relaxing: end of overlap, return of the force. Stick: end of the force; Amonton's limit passed *and*
-/// slip the right way, since at the limit rounding alone passes it. Slip: end of the force, slip the other way. Rates that
-/// are rounding change nothing, or a contact on the verge would change for ever.
+/// Apart: overlap. Relaxing: end of overlap, return of the force. Stick: end of the force, Amonton's limit. Slip: end of the
+/// force, slip the other way. What is rounding changes nothing, or a contact on the verge would change for ever.
 #[inline]
 pub fn margins(contact: &Contact, force: &ContactForce, bounds: &Bounds) -> [f64; 2] {
     let per_rate = bounds.tangential_stiffness * bounds.time;
@@ -122,8 +124,9 @@ pub fn margins(contact: &Contact, force: &ContactForce, bounds: &Bounds) -> [f64
         Phase::Apart => [-bounds.normal_stiffness * force.overlap, f64::INFINITY],
         Phase::Relaxing => [bounds.normal_stiffness * force.overlap, -force.push],
         Phase::Stick => {
-            let room = bounds.friction * force.push - bounds.tangential_stiffness * force.stretch.abs();
-            [force.push, room.max(per_rate * (force.slip_rounding - force.slip_rate))]
+            let rounding = ROUNDING * (force.slide.abs() + contact.unstretched.abs());
+            let room = bounds.friction * force.push - bounds.tangential_stiffness * (force.stretch.abs() - rounding);
+            [force.push, room]
         }
         Phase::Slip(_) => [force.push, per_rate * (force.slip_rate + force.slip_rounding)],
     }

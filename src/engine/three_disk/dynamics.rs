@@ -1,15 +1,15 @@
 //! Newton's equations of the disk: positions, velocities and phases in, accelerations and forces out (P 4.23, 4.24).
 
 use crate::contact::{ElasticSkin, LinearDashpot};
-use crate::drive::excitation::{Excitation, Instant};
+use crate::drive::excitation::{Piece, SupportMotion};
 
-use super::contact::{Contact, ContactForce, Phase};
+use super::contact::{Contact, ContactForce, Phase, Sense};
 use super::runge_kutta::Vector;
-use super::support::{Frame, kinematics};
+use super::support::{Frame, Kinematics, kinematics};
 
-/// What stays fixed.
+/// The disk, its supports and laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Setup {
+pub struct Bench {
     /// Radius R of the disk \[m\].
     pub radius: f64,
     /// Mass m \[kg\].
@@ -24,13 +24,41 @@ pub struct Setup {
     pub frames: [Frame; 2],
     /// 1 / (R + R_i) \[1/m\]; 0 for walls.
     pub curvature: f64,
+}
+
+/// What stays fixed: the [`Bench`] with what follows from it, and the step of time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setup {
+    bench: Bench,
     /// Step of the grid of time \[s\].
     pub time_step: f64,
+    per_mass: f64,
+    per_inertia: f64,
+}
+
+impl std::ops::Deref for Setup {
+    type Target = Bench;
+
+    #[inline(always)]
+    fn deref(&self) -> &Bench {
+        &self.bench
+    }
 }
 
 impl Setup {
+    /// A bench with a step of time \[s\].
+    pub fn new(bench: Bench, time_step: f64) -> Self {
+        Self {
+            bench,
+            time_step,
+            per_mass: 1.0 / bench.mass,
+            per_inertia: 2.0 / (bench.mass * bench.radius * bench.radius),
+        }
+    }
+}
+
+impl Bench {
     /// Moment of inertia of the disk \[kg.m2\] (P 5.6).
-    #[inline]
     pub fn inertia(&self) -> f64 {
         0.5 * self.mass * self.radius * self.radius
     }
@@ -65,102 +93,166 @@ pub fn rates(disk: &Vector) -> [f64; 3] {
     [disk[3], disk[4], disk[5]]
 }
 
-/// Forces and accelerations of `disk` with these contacts at an instant.
+/// A phase as numbers, so that the equations hold no branch on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mode {
+    /// 1 if a force acts, 0 if none.
+    closed: f64,
+    /// 1 if the skin holds.
+    held: f64,
+    /// lambda* \[m\] if it holds.
+    unstretched: f64,
+    /// Stretch over normal force if it slips, `sigma mu / k_t` \[m/N\].
+    slipping: f64,
+    /// Sense of slip, 0 if it does not.
+    sense: f64,
+    /// 1 while disk and support part faster than they recover.
+    relaxing: f64,
+}
+
+impl Mode {
+    /// Of a contact.
+    pub fn of(contact: &Contact, skin: &ElasticSkin) -> Self {
+        let sense = contact.slips().map_or(0.0, Sense::sign);
+        let one_if = |holds: bool| f64::from(u8::from(holds));
+        Self {
+            closed: one_if(contact.is_closed()),
+            held: one_if(contact.phase == Phase::Stick),
+            unstretched: contact.unstretched,
+            slipping: sense * (skin.friction / skin.stiffness),
+            sense,
+            relaxing: one_if(contact.phase == Phase::Relaxing),
+        }
+    }
+}
+
+/// Rates of the quantities of `disk`, `offset` \[s\] after the start of the cell with this excitation.
 ///
 /// The skin pulls at arm (R + R_i) / r, not R_i: so it is conservative though the disks overlap.
-#[inline]
-pub fn look<E: Excitation>(
-    setup: &Setup,
-    excitation: &E,
-    instant: Instant,
-    disk: &Vector,
-    contacts: &[Contact; 2],
-) -> Look {
-    let Setup {
-        radius,
-        mass,
-        normal: law,
-        skin,
-        ..
-    } = *setup;
-    let supports = excitation.supports(instant);
-    let moves: [_; 2] = std::array::from_fn(|index| {
-        kinematics(
-            &setup.frames[index],
-            setup.curvature,
-            radius,
-            place(disk),
-            rates(disk),
-            &supports[index],
-        )
-    });
-    // Push, normal force, stretch and tangential force.
-    let forces: [_; 2] = std::array::from_fn(|index| {
-        let (at, contact) = (&moves[index], &contacts[index]);
-        let push = law.stiffness * at.overlap + law.damping * at.overlap_rate;
-        let (normal, stretch) = match contact.phase {
-            Phase::Apart | Phase::Relaxing => (0.0, 0.0),
-            Phase::Stick => (push, at.slide - contact.unstretched),
-            Phase::Slip(sense) => (push, sense.sign() * (skin.friction * push / skin.stiffness)),
-        };
-        (push, normal, stretch, skin.force(stretch))
-    });
-    let forward: [[f64; 2]; 2] = std::array::from_fn(|index| {
-        let (at, frame, (_, normal, _, tangential)) = (&moves[index], &setup.frames[index], forces[index]);
-        let pull = tangential / at.stretch;
-        let along_normal = normal * at.normal - pull * at.tangent;
-        let along_tangent = normal * at.tangent + pull * at.normal;
-        std::array::from_fn(|axis| along_normal * frame.normal[axis] + along_tangent * frame.tangent[axis])
-    });
-    let torque = excitation.torque(instant);
-    let accelerations = [
-        (forward[0][0] + forward[1][0]) / mass,
-        (forward[0][1] + forward[1][1]) / mass - setup.gravity,
-        (radius * (forces[0].3 + forces[1].3) + torque) / setup.inertia(),
+#[inline(never)]
+pub fn rates_of<P: Piece>(setup: &Setup, piece: &P, offset: f64, disk: &Vector, modes: &[Mode; 2]) -> Vector {
+    look(setup, piece, offset, disk, modes).rates
+}
+
+/// Force of one contact.
+#[derive(Clone, Copy)]
+struct Force {
+    push: f64,
+    normal: f64,
+    stretch: f64,
+    tangential: f64,
+    /// On the centre of the disk, along x and y.
+    on_centre: [f64; 2],
+}
+
+#[inline(always)]
+fn force(setup: &Setup, frame: &Frame, mode: &Mode, at: &Kinematics) -> Force {
+    let push = setup.normal.stiffness * at.overlap + setup.normal.damping * at.overlap_rate;
+    let normal = mode.closed * push;
+    let stretch = mode.held * (at.slide - mode.unstretched) + mode.slipping * push;
+    let tangential = setup.skin.force(stretch);
+    let pull = tangential * at.shortness;
+    let along_normal = normal * at.normal - pull * at.tangent;
+    let along_tangent = normal * at.tangent + pull * at.normal;
+    let on_centre = [
+        along_normal * frame.normal[0] + along_tangent * frame.tangent[0],
+        along_normal * frame.normal[1] + along_tangent * frame.tangent[1],
     ];
-    let hurry = (forces[0].0.abs() + forces[1].0.abs()) / mass + setup.gravity;
-    let contacts: [ContactForce; 2] = std::array::from_fn(|index| {
-        let (at, frame, support, contact) = (&moves[index], &setup.frames[index], &supports[index], &contacts[index]);
-        let (push, normal, stretch, tangential) = forces[index];
-        let rising = [0, 1].map(|axis| accelerations[axis] - support.accelerations[axis]);
-        let along = |direction: [f64; 2]| rising[0] * direction[0] + rising[1] * direction[1];
-        let outward = along(frame.normal) * at.normal + along(frame.tangent) * at.tangent;
-        let force_rate = law.stiffness * at.overlap_rate + law.damping * (at.centripetal - outward);
-        let sense = match contact.phase {
-            Phase::Slip(sense) => sense.sign(),
-            _ if stretch == 0.0 => 1.0_f64.copysign(at.slide_rate),
-            _ => 1.0_f64.copysign(stretch),
-        };
-        let slip_rate = sense * at.slide_rate - skin.friction * force_rate / skin.stiffness;
-        let rates_in_it =
-            at.slide_rate.abs() + at.overlap_rate.abs() + radius * (disk[5].abs() + support.rates[2].abs());
-        let force_rates = law.stiffness * rates_in_it + law.damping * hurry;
-        let lost_power = match contact.phase {
-            Phase::Apart => 0.0,
-            Phase::Relaxing => -law.stiffness * at.overlap * at.overlap_rate,
-            Phase::Stick => law.damping * at.overlap_rate * at.overlap_rate,
-            Phase::Slip(_) => law.damping * at.overlap_rate * at.overlap_rate + skin.friction * normal * slip_rate,
-        };
-        let carried = forward[index][0] * support.rates[0] + forward[index][1] * support.rates[1];
-        ContactForce {
-            overlap: at.overlap,
-            push,
-            normal,
-            tangential,
-            slide: at.slide,
-            stretch,
-            slip_rate,
-            slip_rounding: ROUNDING * (rates_in_it + skin.friction / skin.stiffness * force_rates),
-            lost_power,
-            input_power: carried - tangential * radius * support.rates[2],
-        }
-    });
-    let input = contacts[0].input_power + contacts[1].input_power + torque * disk[5];
-    let lost = contacts[0].lost_power + contacts[1].lost_power;
-    let [x, y, angle] = rates(disk);
-    let [ax, ay, spin_up] = accelerations;
+    Force {
+        push,
+        normal,
+        stretch,
+        tangential,
+        on_centre,
+    }
+}
+
+/// What follows from the accelerations (x, y) \[m/s2\] at one contact. `speed` \[m/s\] and `hurry` \[m/s2\] are sizes
+/// of velocities and accelerations that cancel.
+#[inline(always)]
+fn account(
+    setup: &Setup,
+    (frame, mode, support): (&Frame, &Mode, &SupportMotion),
+    (at, force): (&Kinematics, &Force),
+    accelerations: [f64; 2],
+    (speed, hurry): (f64, f64),
+) -> ContactForce {
+    let (law, skin) = (setup.normal, setup.skin);
+    let rising = [
+        accelerations[0] - support.accelerations[0],
+        accelerations[1] - support.accelerations[1],
+    ];
+    let along = |direction: [f64; 2]| rising[0] * direction[0] + rising[1] * direction[1];
+    let outward = along(frame.normal) * at.normal + along(frame.tangent) * at.tangent;
+    let force_rate = law.stiffness * at.overlap_rate + law.damping * (at.centripetal - outward);
+    let sense = if mode.sense != 0.0 {
+        mode.sense
+    } else if force.stretch != 0.0 {
+        1.0_f64.copysign(force.stretch)
+    } else {
+        1.0_f64.copysign(at.slide_rate)
+    };
+    let give = skin.friction / skin.stiffness;
+    let rubbing = mode.sense * at.slide_rate - mode.sense * mode.sense * give * force_rate;
+    let lost_power = mode.closed * law.damping * at.overlap_rate * at.overlap_rate
+        - mode.relaxing * law.stiffness * at.overlap * at.overlap_rate
+        + skin.friction * force.normal * rubbing;
+    let speed = at.slide_rate.abs() + at.overlap_rate.abs() + speed + setup.radius * support.rates[2].abs();
+    let carried = force.on_centre[0] * support.rates[0] + force.on_centre[1] * support.rates[1];
+    ContactForce {
+        overlap: at.overlap,
+        push: force.push,
+        normal: force.normal,
+        tangential: force.tangential,
+        slide: at.slide,
+        stretch: force.stretch,
+        slip_rate: sense * at.slide_rate - give * force_rate,
+        slip_rounding: ROUNDING * (speed + give * (law.stiffness * speed + law.damping * hurry)),
+        lost_power,
+        input_power: carried - force.tangential * setup.radius * support.rates[2],
+    }
+}
+
+/// Rates and forces, as [`rates_of`].
+#[inline(always)]
+pub fn look<P: Piece>(setup: &Setup, piece: &P, offset: f64, disk: &Vector, modes: &[Mode; 2]) -> Look {
+    let [support_1, support_2] = &piece.supports(offset);
+    let [frame_1, frame_2] = &setup.frames;
+    let [mode_1, mode_2] = modes;
+    let (place, [x, y, angle]) = (place(disk), rates(disk));
+    let (radius, curvature) = (setup.radius, setup.curvature);
+    let at_1 = &kinematics(frame_1, curvature, radius, place, [x, y, angle], support_1);
+    let at_2 = &kinematics(frame_2, curvature, radius, place, [x, y, angle], support_2);
+    let force_1 = &force(setup, frame_1, mode_1, at_1);
+    let force_2 = &force(setup, frame_2, mode_2, at_2);
+
+    let torque = piece.torque(offset);
+    let acceleration = [
+        (force_1.on_centre[0] + force_2.on_centre[0]) * setup.per_mass,
+        (force_1.on_centre[1] + force_2.on_centre[1]) * setup.per_mass - setup.gravity,
+    ];
+    let spin_up = (setup.radius * (force_1.tangential + force_2.tangential) + torque) * setup.per_inertia;
+    let hurry = (force_1.push.abs() + force_2.push.abs()) * setup.per_mass + setup.gravity;
+    let sizes = (setup.radius * angle.abs(), hurry);
+    let left = account(
+        setup,
+        (frame_1, mode_1, support_1),
+        (at_1, force_1),
+        acceleration,
+        sizes,
+    );
+    let right = account(
+        setup,
+        (frame_2, mode_2, support_2),
+        (at_2, force_2),
+        acceleration,
+        sizes,
+    );
+
+    let input = left.input_power + right.input_power + torque * angle;
+    let lost = left.lost_power + right.lost_power;
     Look {
-        rates: [x, y, angle, ax, ay, spin_up, input, lost],
-        contacts,
+        rates: [x, y, angle, acceleration[0], acceleration[1], spin_up, input, lost],
+        contacts: [left, right],
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::drive::excitation::SupportMotion;
 
-use super::dynamics::Setup;
+use super::dynamics::Bench;
 use super::support::kinematics;
 
 /// There is no place near where both contacts touch at which the disk rests on them.
@@ -15,19 +15,19 @@ pub struct NoEquilibrium;
 ///
 /// # Errors
 /// A contact would have to pull, or overlaps are no longer small.
-pub fn equilibrium(setup: &Setup, supports: &[SupportMotion; 2]) -> Result<[f64; 2], NoEquilibrium> {
-    let stiffness = setup.normal.stiffness;
+pub fn equilibrium(bench: &Bench, supports: &[SupportMotion; 2]) -> Result<[f64; 2], NoEquilibrium> {
+    let stiffness = bench.normal.stiffness;
     // Force along x and y, and its derivatives, per k_n.
     let forces = |[x, y]: [f64; 2]| {
-        let mut force = [0.0, -setup.mass * setup.gravity / stiffness];
+        let mut force = [0.0, -bench.mass * bench.gravity / stiffness];
         let mut slope = [[0.0; 2]; 2];
         let mut least = f64::INFINITY;
-        for (frame, support) in setup.frames.iter().zip(supports) {
-            let at = kinematics(frame, setup.curvature, setup.radius, [x, y, 0.0], [0.0; 3], support);
+        for (frame, support) in bench.frames.iter().zip(supports) {
+            let at = kinematics(frame, bench.curvature, bench.radius, [x, y, 0.0], [0.0; 3], support);
             let normal = [0, 1].map(|axis| at.normal * frame.normal[axis] + at.tangent * frame.tangent[axis]);
             let tangent = [normal[1], -normal[0]];
             // The normal turns by 1/r for a displacement along the tangent.
-            let turning = setup.curvature * at.overlap / at.stretch;
+            let turning = bench.curvature * at.overlap * at.shortness;
             least = least.min(at.overlap);
             for row in 0..2 {
                 force[row] += at.overlap * normal[row];
@@ -45,7 +45,7 @@ pub fn equilibrium(setup: &Setup, supports: &[SupportMotion; 2]) -> Result<[f64;
         let step = [(xy * fy - yy * fx) / determinant, (yx * fx - xx * fy) / determinant];
         place = [place[0] + step[0], place[1] + step[1]];
         let size = place[0].abs().max(place[1].abs());
-        if !(size < 0.5 * setup.radius) {
+        if !(size < 0.5 * bench.radius) {
             return Err(NoEquilibrium);
         }
         if step[0].abs().max(step[1].abs()) <= 4.0 * f64::EPSILON * size {

@@ -14,12 +14,12 @@ pub mod state;
 pub mod support;
 mod time_step;
 
-use crate::drive::excitation::{Excitation, Instant};
+use crate::drive::excitation::{Excitation, Piece, SupportMotion};
 
 pub use cell::Stuck;
 use cell::{Cell, Course};
 pub use contact::{Contact, Phase, Sense};
-pub use dynamics::{LOST, Look, Setup, WORK};
+pub use dynamics::{Bench, LOST, Look, Setup, WORK};
 pub use equilibrium::{NoEquilibrium, equilibrium};
 pub use runge_kutta::Vector;
 pub use state::{Node, Record, SlidingPoint, State};
@@ -55,11 +55,12 @@ impl<E: Excitation> ThreeDisk<E> {
             contacts: [apart; 2],
             record: Record::default(),
         };
-        let instant = Instant {
+        let cell = Cell {
+            setup: &setup,
+            piece: excitation.piece(start_time),
             start: start_time,
-            offset: 0.0,
         };
-        let look = dynamics::look(&setup, &excitation, instant, &disk, &start.contacts);
+        let look = cell.look(0.0, &disk, &start.contacts);
         start.contacts = look.contacts.map(|force| Contact {
             phase: if force.overlap > 0.0 && force.push > 0.0 {
                 Phase::Stick
@@ -94,6 +95,17 @@ impl<E: Excitation> ThreeDisk<E> {
         &self.state
     }
 
+    /// Whether `state` at `time` \[s\] can be one of a disk on this grid of time.
+    pub fn fits(&self, state: &State<E>, time: f64) -> bool {
+        let step = self.setup.time_step;
+        let cell_start = state.origin + state.cell as f64 * step;
+        let within = state.time - cell_start;
+        let rounding = 1e-9 * step + 4.0 * f64::EPSILON * (state.time.abs() + state.origin.abs());
+        let nodes = state.start.is_sane() && state.now.is_sane() && state.start.offset == 0.0;
+        let in_cell = (-rounding..=step + rounding).contains(&within) && (within - state.now.offset).abs() <= rounding;
+        state.time == time && state.origin.is_finite() && nodes && in_cell && state.excitation.is_sane()
+    }
+
     /// Goes to a state of this same disk.
     pub fn restore(&mut self, state: &State<E>) {
         self.state = state.clone();
@@ -121,23 +133,12 @@ impl<E: Excitation> ThreeDisk<E> {
         self.course.end = None;
     }
 
-    /// Advances to `end_time` \[s\].
+    /// Advances to `end_time` \[s\] or, if `stop` says so, to the first event after the present time and not after
+    /// `end_time`; says whether an event ended it.
     ///
     /// # Errors
     /// Events follow each other without end. The state is then of no use.
-    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stuck> {
-        self.advance(end_time, false).map(|_| ())
-    }
-
-    /// Advances to `end_time` \[s\] or to the first event after the present time; says whether an event stopped it.
-    ///
-    /// # Errors
-    /// As [`ThreeDisk::advance_to`].
-    pub fn advance_to_event(&mut self, end_time: f64) -> Result<bool, Stuck> {
-        self.advance(end_time, true)
-    }
-
-    fn advance(&mut self, end_time: f64, stop: bool) -> Result<bool, Stuck> {
+    pub fn advance(&mut self, end_time: f64, stop: bool) -> Result<bool, Stuck> {
         loop {
             let cell_start = self.cell_start(0);
             let next_start = self.cell_start(1);
@@ -174,10 +175,10 @@ impl<E: Excitation> ThreeDisk<E> {
         self.state.origin + (self.state.cell + ahead) as f64 * self.setup.time_step
     }
 
-    fn cell(&self, start: f64) -> Cell<'_, E> {
+    fn cell(&self, start: f64) -> Cell<'_, E::Piece> {
         Cell {
             setup: &self.setup,
-            excitation: &self.state.excitation,
+            piece: self.state.excitation.piece(start),
             start,
         }
     }
@@ -189,7 +190,7 @@ impl<E: Excitation> ThreeDisk<E> {
         }
         let cell = Cell {
             setup: &self.setup,
-            excitation: &self.state.excitation,
+            piece: self.state.excitation.piece(start),
             start,
         };
         cell.run(&self.state.start, self.setup.time_step, &mut self.course)
@@ -205,11 +206,13 @@ impl<E: Excitation> ThreeDisk<E> {
     /// Forces and accelerations at the time reached.
     pub fn look(&self) -> Look {
         let now = &self.state.now;
-        let instant = Instant {
-            start: self.state.time - now.offset,
-            offset: now.offset,
-        };
-        dynamics::look(&self.setup, &self.state.excitation, instant, &now.disk, &now.contacts)
+        self.cell(self.cell_start(0)).look(now.offset, &now.disk, &now.contacts)
+    }
+
+    /// Torque and motion of the supports at the time reached.
+    pub fn driven(&self) -> (f64, [SupportMotion; 2]) {
+        let (piece, offset) = (self.cell(self.cell_start(0)).piece, self.state.now.offset);
+        (piece.torque(offset), piece.supports(offset))
     }
 }
 

@@ -10,12 +10,19 @@ pub const WIDTH: usize = 8;
 pub type Vector = [f64; WIDTH];
 
 /// `y + h sum a_i k_i`.
-#[inline]
+#[inline(always)]
 fn along<const N: usize>(start: &Vector, step: f64, terms: [(f64, &Vector); N]) -> Vector {
-    std::array::from_fn(|row| {
-        let slope = terms.iter().fold(0.0, |sum, (weight, rates)| sum + weight * rates[row]);
-        start[row] + step * slope
-    })
+    let mut slope = Vector::default();
+    for (weight, rates) in terms {
+        for row in 0..WIDTH {
+            slope[row] += weight * rates[row];
+        }
+    }
+    let mut end = *start;
+    for row in 0..WIDTH {
+        end[row] += step * slope[row];
+    }
+    end
 }
 
 /// The quantities after `step` \[s\] from `start` under `rates(offset, quantities)`, offset counted from the start of the

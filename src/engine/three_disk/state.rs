@@ -31,7 +31,7 @@ impl Node {
     /// Whether all numbers are finite and far from overflow.
     pub fn is_sane(&self) -> bool {
         let stretch = self.contacts.map(|contact| contact.unstretched);
-        are_sane(self.disk) && are_sane(stretch) && are_sane([self.offset, self.turned])
+        are_sane(self.disk) && are_sane(stretch) && are_sane([self.offset, self.turned]) && self.record.is_sane()
     }
 }
 
@@ -81,6 +81,24 @@ impl SlidingPoint {
 }
 
 impl Record {
+    /// Whether all numbers are finite and far from overflow.
+    pub fn is_sane(&self) -> bool {
+        let times = self.slipping.into_iter().chain(self.open).chain(self.sliding);
+        are_sane(times.chain(self.first_detachment))
+    }
+
+    /// What the contacts did since `before`.
+    pub fn since(&self, before: &Self) -> Self {
+        Self {
+            slips: self.slips.saturating_sub(before.slips),
+            slipping: [0, 1].map(|index| self.slipping[index] - before.slipping[index]),
+            open: [0, 1].map(|index| self.open[index] - before.open[index]),
+            sliding: [0, 1, 2, 3].map(|index| self.sliding[index] - before.sliding[index]),
+            slides: [0, 1, 2, 3].map(|index| self.slides[index].saturating_sub(before.slides[index])),
+            ..*self
+        }
+    }
+
     /// Adds `duration` \[s\] in which the contacts were in these phases.
     pub fn pass(&mut self, contacts: &[Contact; 2], duration: f64) {
         for (index, contact) in contacts.iter().enumerate() {

@@ -34,8 +34,8 @@ pub struct Kinematics {
     pub normal: f64,
     /// See `normal`.
     pub tangent: f64,
-    /// Distance of the centres over the sum of the radii; 1 at a wall.
-    pub stretch: f64,
+    /// Sum of the radii over the distance of the centres; 1 at a wall.
+    pub shortness: f64,
     /// Overlap delta \[m\], negative while apart.
     pub overlap: f64,
     /// Its rate \[m/s\], minus the normal velocity u_n of P 4.1.
@@ -65,7 +65,7 @@ fn arc_over_slope(slope: f64) -> f64 {
 ///
 /// `curvature` \[1/m\] is 1 / (R + R_i), 0 at a wall. lambda = R theta + R theta_i + (arc along the support), whose sign is
 /// that of the frame's tangent. Source: P 4.5, 4.7 with ERRATA's signs.
-#[inline]
+#[inline(always)]
 pub fn kinematics(
     frame: &Frame,
     curvature: f64,
@@ -82,20 +82,22 @@ pub fn kinematics(
 
     let (ahead, across) = (1.0 + curvature * up, curvature * side);
     let stretch = (ahead * ahead + across * across).sqrt();
-    let (normal, tangent) = (ahead / stretch, across / stretch);
+    let shortness = 1.0 / stretch;
+    let (normal, tangent) = (ahead * shortness, across * shortness);
     let outward = up_rate * normal + side_rate * tangent;
     let sideways = side_rate * normal - up_rate * tangent;
-    let arc = side / ahead * arc_over_slope(across / ahead);
+    let slope = across / ahead;
+    let arc = side / ahead * arc_over_slope(slope);
     Kinematics {
         normal,
         tangent,
-        stretch,
+        shortness,
         // (1 - stretch) / curvature without its cancellation.
         overlap: -(2.0 * up + curvature * (up * up + side * side)) / (1.0 + stretch),
         overlap_rate: -outward,
         slide: radius * (place[2] + support.place[2]) + arc,
-        slide_rate: radius * (rates[2] + support.rates[2]) + sideways / stretch,
-        centripetal: -curvature * sideways * sideways / stretch,
+        slide_rate: radius * (rates[2] + support.rates[2]) + sideways * shortness,
+        centripetal: -curvature * sideways * sideways * shortness,
     }
 }
 

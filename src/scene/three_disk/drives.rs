@@ -2,10 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use crate::drive::Sine;
 use crate::drive::excitation::{
-    Excitation, HarmonicTorque, HeldTorque, Instant, NoiseSign, RandomSupports, SineSupports, Vibration,
+    Excitation, HarmonicTorque, HeldTorque, NoiseSign, RandomSupports, SineSupports, SupportMotion, Vibration,
 };
-use crate::drive::{Drive, Sine};
 use crate::scene::{OutputWriter, Unit, Values, Variable};
 
 /// An excitation that the scene can be bundled with.
@@ -43,7 +43,8 @@ pub trait ThreeDiskDrive: Excitation {
     fn continues(&self, other: &Self) -> bool;
 
     /// Writes what [`ThreeDiskDrive::outputs`] lists.
-    fn write(&self, instant: Instant, outputs: &mut OutputWriter<'_>);
+    /// Given are the torque and the motion of the supports now.
+    fn write(outputs: &mut OutputWriter<'_>, torque: f64, supports: &[SupportMotion; 2]);
 }
 
 impl ThreeDiskDrive for HeldTorque {
@@ -92,7 +93,7 @@ impl ThreeDiskDrive for HeldTorque {
         true
     }
 
-    fn write(&self, _instant: Instant, _outputs: &mut OutputWriter<'_>) {}
+    fn write(_outputs: &mut OutputWriter<'_>, _torque: f64, _supports: &[SupportMotion; 2]) {}
 }
 
 impl ThreeDiskDrive for HarmonicTorque {
@@ -148,8 +149,8 @@ impl ThreeDiskDrive for HarmonicTorque {
         self == other
     }
 
-    fn write(&self, instant: Instant, outputs: &mut OutputWriter<'_>) {
-        outputs.real("torque.applied", self.torque(instant));
+    fn write(outputs: &mut OutputWriter<'_>, torque: f64, _supports: &[SupportMotion; 2]) {
+        outputs.real("torque.applied", torque);
     }
 }
 
@@ -256,8 +257,8 @@ impl ThreeDiskDrive for RandomSupports {
         Self::continues(self, other)
     }
 
-    fn write(&self, instant: Instant, outputs: &mut OutputWriter<'_>) {
-        for (index, support) in (1..).zip(self.supports(instant)) {
+    fn write(outputs: &mut OutputWriter<'_>, _torque: f64, supports: &[SupportMotion; 2]) {
+        for (index, support) in (1..).zip(supports) {
             let ([x, y, angle], [vx, vy, turning]) = (support.place, support.rates);
             for (name, value) in [
                 ("x", x),
@@ -357,9 +358,8 @@ impl ThreeDiskDrive for SineSupports {
         self == other
     }
 
-    fn write(&self, instant: Instant, outputs: &mut OutputWriter<'_>) {
-        let motion = self.sine.motion(instant.time());
-        outputs.real("base.position", motion.displacement * self.direction[1]);
-        outputs.real("base.acceleration", motion.acceleration * self.direction[1]);
+    fn write(outputs: &mut OutputWriter<'_>, _torque: f64, supports: &[SupportMotion; 2]) {
+        outputs.real("base.position", supports[0].place[1]);
+        outputs.real("base.acceleration", supports[0].accelerations[1]);
     }
 }

@@ -25,7 +25,7 @@ force vanishes and closes where the disks touch. Each such instant is found to r
 point <i>t<sub>c</sub></i>, or <i>A<sub>e</sub></i> sin(&omega;<sub>e</sub> <i>t</i>)</li>
 <li>random supports: <i>x</i>, <i>y</i> and angle of each obey <i>q</i>'' + 2 <i>c</i> &omega;<sub>b</sub> <i>q</i>' +
 &omega;<sub>b</sub>&sup2; <i>q</i> = white noise, with &lang;<i>q</i>&sup2;&rang; = <i>A<sub>b</sub></i>&sup2;
-(<i>A<sub>b</sub></i>&sup2;/<i>R</i>&sup2; for the angle), in exact steps of <code>time_step.used</code></li>
+(<i>A<sub>b</sub></i>&sup2;/<i>R</i>&sup2; for the angle), in exact steps of <code>chosen_time_step</code></li>
 </ul>
 <p>Source: G. G. Peraza Mues, Spontaneous rotation in vibrated disk packings, doctoral thesis, Cinvestav M&eacute;rida,
 2018, chapters 4 and 5.</p>

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
 use crate::contact::{ElasticSkin, LinearDashpot};
-use crate::engine::three_disk::{Frame, Setup};
+use crate::engine::three_disk::{Bench, Frame};
 use crate::error::{Error, Result};
 use crate::scene::{Unit, Values, Variable};
 
@@ -35,7 +35,7 @@ pub fn rows(drive: Vec<Variable>, drive_outputs: Vec<Variable>) -> Vec<Variable>
     rows.extend(run());
     rows.extend(drive);
     rows.push(Variable::calculated(
-        "time_step.used",
+        "chosen_time_step",
         Unit::Second,
         1e-5,
         "Time step of the integration in use",
@@ -140,7 +140,7 @@ fn run() -> Vec<Variable> {
             Unit::Second,
             0.0..=1.0,
             0.0,
-            "Time step of the integration; 0: a quarter radian of the fastest mode",
+            "Time step of the integration; 0: half a radian of the fastest mode",
         ),
     ]
 }
@@ -330,11 +330,11 @@ fn disk() -> Vec<Variable> {
     ]
 }
 
-/// The engine's setup without its time step.
+/// The disk on its supports.
 ///
 /// # Errors
 /// Supports that do not confine the disk or overlap each other.
-pub fn setup(values: &Values) -> Result<Setup> {
+pub fn bench(values: &Values) -> Result<Bench> {
     let (opening, tilt, radius) = (
         values.real("support.angle"),
         values.real("tilt"),
@@ -358,7 +358,7 @@ pub fn setup(values: &Values) -> Result<Setup> {
         ));
     }
     let stiffness = values.real("contact.normal_stiffness");
-    Ok(Setup {
+    Ok(Bench {
         radius,
         mass: values.real("disk.mass"),
         gravity: values.real("gravity"),
@@ -372,6 +372,5 @@ pub fn setup(values: &Values) -> Result<Setup> {
         },
         frames: [Frame::new(tilt - opening), Frame::new(opening + tilt)],
         curvature: if disks { 0.5 / radius } else { 0.0 },
-        time_step: 0.0,
     })
 }

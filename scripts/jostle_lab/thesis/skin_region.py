@@ -40,7 +40,7 @@ class Region:
         return np.where((side < 0.0).any(axis=1), beyond, 0.0)
 
     def cycle(self) -> Numbers:
-        """The path of bidirectional sliding (P 5.2.3), closed: S1, along Theta = Theta_S1, T2 S2, S2, Theta_S2, T1 S1."""
+        """Path of bidirectional sliding (P 5.2.3), closed: S1, along Theta = Theta_S1, T2 S2, S2, Theta_S2, T1 S1."""
         s_1, s_2 = self.corners["S1"], self.corners["S2"]
         return np.array(
             [

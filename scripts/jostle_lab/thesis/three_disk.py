@@ -93,7 +93,7 @@ def velocity(
     angular_frequency: float = SLOW,
     normal_stiffness: float = math.inf,
 ) -> Table:
-    """Theory: mean angular velocity at all pairs of tilt and amplitude; `closed_form` is P 5.9, NaN beyond its range."""
+    """Theory at all pairs of tilt and amplitude: mean angular velocity; `closed_form` is P 5.9, NaN beyond its range."""
     return laboratory.theory(
         SCENE,
         "velocity",
@@ -142,6 +142,6 @@ def notes() -> list[str]:
     """Parameters, for the page of statements."""
     return [
         "k_n = 1e3 N/m, k_t = 1e6 N/m, gamma_n = 10 kg/s, mu = 0.1, g = 10 m/s^2, R = 1 m, m = 0.1 kg (P 5.1)",
-        f"omega_e = {SLOW:g} rad/s, which the thesis does not give; {PERIODS} periods, the last one measured; no chance, "
+        f"omega_e = {SLOW:g} rad/s, not given in the thesis; {PERIODS} periods, the last one measured; no chance, "
         "the change from the period before stands for an error bar",
     ]

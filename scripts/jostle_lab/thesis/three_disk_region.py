@@ -78,7 +78,7 @@ def _draw(quasi_static: Region, constant: Numbers, points: Numbers) -> Figure:
         panel.plot(*(SHOWN * corner), "ko", ms=3.5)
         left = corner[0] < 0.0
         panel.annotate(
-            f"${name[0]}_{name[1]}$", SHOWN * corner, xytext=(-14 if left else 6, 5), textcoords="offset points"
+            f"${name[0]}_{name[1]}$", tuple(SHOWN * corner), xytext=(-14 if left else 6, 5), textcoords="offset points"
         )
     panel.set(xlabel=r"$\delta\theta$ [$10^{-8}$ rad]", ylabel=r"$\Theta$ [$10^{-8}$ rad]", aspect="equal")
     panel.margins(0.08)

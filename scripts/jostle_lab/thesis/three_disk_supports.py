@@ -1,7 +1,7 @@
 """The random supports themselves against P 5.11 to 5.13: variances, correlation in time, independence.
 
-A record is cut into pieces much longer than the memory 1 / (c omega_b). Every piece of every coordinate gives one vector of
-moments; Hotelling's T^2 tells whether their mean is the formula's. The statistics must not depend on the time step.
+A record is cut into pieces much longer than the memory 1 / (c omega_b). Every piece of every coordinate gives one vector
+of moments; Hotelling's T^2 tells whether their mean is the formula's. The statistics must not depend on the time step.
 """
 
 import math
@@ -94,7 +94,7 @@ def hotelling(rows: Numbers, mean: Numbers) -> float:
 
 
 def independence(table: Table) -> float:
-    """p-value of the hypothesis that no two of the six coordinates are correlated (their pieces' products have mean zero)."""
+    """p-value of the hypothesis that no two of the six coordinates are correlated."""
     length = round(PIECE / SAMPLE)
     x = np.array([table[name][round(1.0 / SAMPLE) :] for name in COORDINATES]) / AMPLITUDE
     pairs = [(i, j) for i in range(6) for j in range(i)]
@@ -119,8 +119,8 @@ def make(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Prod
         _row(noise, name, column) for noise in noises for name, column in zip(_names(), found[noise].T, strict=True)
     ]
     notes = [
-        f"A_b = {AMPLITUDE:g} m, omega_b = 20 pi rad/s, R = 1 m; {seconds:g} s each after 1 s, seed 1; six coordinates in "
-        f"pieces of {PIECE:g} s; moments of x / A_b and v / (A_b omega_b)",
+        f"A_b = {AMPLITUDE:g} m, omega_b = 20 pi rad/s, R = 1 m; {seconds:g} s each after 1 s, seed 1; six coordinates "
+        f"in pieces of {PIECE:g} s; moments of x / A_b and v / (A_b omega_b)",
         f"p: Hotelling's T^2 over all moments together; refused below {SIGNIFICANT:g}",
     ]
     return Product("Random supports, 5.11 to 5.13", rows, _draw(found), _statements(found, apart), notes)

@@ -30,9 +30,9 @@ from jostle_lab.thesis.wedge import shades
 
 AMPLITUDES = (0.100, 0.105, 0.110, 0.113, 0.115)
 """A_e [N m], as in the captions."""
-TILTS = tuple(0.134 * math.pi * share for share in (0.0, 0.03, 0.07, *np.linspace(0.12, 1.0, 18)))
+TILTS = tuple(0.134 * math.pi * float(share) for share in (0.0, 0.03, 0.07, *np.linspace(0.12, 1.0, 18)))
 """theta_T [rad]; the last one is half a per cent below detachment."""
-QUICK_TILTS = tuple(0.134 * math.pi * share for share in np.linspace(0.0, 1.0, 8))
+QUICK_TILTS = tuple(0.134 * math.pi * float(share) for share in np.linspace(0.0, 1.0, 8))
 LOWEST = 1e-9
 """Angular velocities below count as none [rad/s]."""
 
@@ -85,9 +85,9 @@ def lines(laboratory: Laboratory, title: str, quick: bool) -> list[Line]:
     dense = [float(tilt) for tilt in np.linspace(1e-4, limits(laboratory, 0.0)["detachment_tilt"] - 1e-9, 300)]
     found = []
     for amplitude, torques in chosen.items():
-        tilts = [torque.tilt for torque in torques]
+        at = [torque.tilt for torque in torques]
         theory = [
-            velocity(laboratory, tilts, [amplitude], normal_stiffness=k)["angular_velocity"]
+            velocity(laboratory, at, [amplitude], normal_stiffness=k)["angular_velocity"]
             for k in (math.inf, NORMAL_STIFFNESS)
         ]
         found.append(

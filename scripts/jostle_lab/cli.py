@@ -135,7 +135,7 @@ def exchanges(
 
 @app.command()
 def torque_demo(
-    fmi2: Annotated[Path, typer.Option(help="three_disk FMU for FMI 2.0.")] = Path("build/three_disk.fmi2.fmu"),
+    fmi2: Annotated[Path, typer.Option(help="three_disk FMU for FMI 2.0.")] = Path("build/three_disk_fmi2.fmu"),
     fmi3: Annotated[Path, typer.Option(help="three_disk FMU for FMI 3.0.")] = Path("build/three_disk.fmu"),
     results: ResultsOption = Path("results/torque"),
     sample: Annotated[

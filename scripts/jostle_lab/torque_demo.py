@@ -1,6 +1,6 @@
 """A PI controller holds the angular velocity of a disk by torque, in spite of stick and slip at its two contacts.
 
-Three couplings of the same physics: FMI 2.0 and FMI 3.0 stepped plainly, and FMI 3.0 with event mode, where the FMU ends
+Three couplings of the same physics: FMI 2.0 and FMI 3.0 stepped plainly, and FMI 3.0 with event mode, where it ends
 a step when a contact begins to stick or slip and the controller acts at that instant rather than at its next sample.
 """
 
@@ -207,7 +207,7 @@ def page(records: Sequence[Record], sample: float) -> str:
             markdown_table(header, rows),
             "",
             f"Controller every {1e3 * sample:g} ms. Settled: within {100 * BAND:g} % of the step of the reference for "
-            "good. Ripple: peak to peak over the last half second of a segment. Sticking: share of a segment, both contacts.",
+            "good. Ripple: peak to peak over the last half second. Sticking: share of a segment, both contacts.",
             "",
             *costs,
             "",

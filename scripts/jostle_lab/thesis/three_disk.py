@@ -93,7 +93,7 @@ def velocity(
     angular_frequency: float = SLOW,
     normal_stiffness: float = math.inf,
 ) -> Table:
-    """Theory at all pairs of tilt and amplitude: mean angular velocity; `closed_form` is P 5.9, NaN beyond its range."""
+    """Theory at all pairs of tilt and amplitude: mean angular velocity; `closed_form`: P 5.9, NaN beyond its range."""
     return laboratory.theory(
         SCENE,
         "velocity",

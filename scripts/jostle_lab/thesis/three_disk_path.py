@@ -106,7 +106,7 @@ def _statements(still: Table, sliding: Table, rigid: Region, soft: Region) -> li
         Statement(
             "5.2.3",
             "A_e = 0.100: never at a sliding point, the disk does not rotate",
-            f"{turned:.1e} rad in the last period, in which it rolls to and fro by {rolled:.1e} rad as its centre moves; "
+            f"{turned:.1e} rad in the last period; it rolls to and fro by {rolled:.1e} rad as its centre moves; "
             f"at most {inside:.1e} outside the quadrilateral, regime {regimes[0]}",
             verdict(regimes[0] == 0 and turned < 1e-6 * rolled),
         ),
@@ -143,7 +143,7 @@ def _statements(still: Table, sliding: Table, rigid: Region, soft: Region) -> li
 
 
 def _level(table: Table, points: Numbers, name: str, soft: Region) -> tuple[float, float]:
-    """Spread of the stretch and span of the departure after the disk has left a sliding point and both contacts stick."""
+    """Spread of the stretch, span of the departure after the disk has left a sliding point and both contacts stick."""
     last = -len(points)
     states = np.column_stack([table[f"contact[{i}].state"][last:] for i in (1, 2)])
     sticking = (states == 2).all(axis=1) & (np.abs(points[:, 1] - soft.corners[name][1]) < 0.05 * soft.size)

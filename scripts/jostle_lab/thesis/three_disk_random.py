@@ -199,9 +199,8 @@ def _amplitude_statements(
         Statement(
             "5.3.2",
             "for positive tilt the rotation is negative, opposite to that under a torque",
-            _counted(tilted)
-            + f"; most certain: {strongest.paired} rad/s at {strongest.place.tilt / math.pi:.2f} pi, {strongest.place.amplitude:.0e} m; pairs save a factor "
-            f"{gain:.1f} of runs",
+            _counted(tilted) + f"; most certain: {strongest.paired} rad/s at {strongest.place.tilt / math.pi:.2f} pi, "
+            f"{strongest.place.amplitude:.0e} m; pairs save a factor {gain:.1f} of runs",
             _sign(tilted),
         ),
         Statement(

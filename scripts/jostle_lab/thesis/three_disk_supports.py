@@ -1,6 +1,6 @@
 """The random supports themselves against P 5.11 to 5.13: variances, correlation in time, independence.
 
-A record is cut into pieces much longer than the memory 1 / (c omega_b). Every piece of every coordinate gives one vector
+A record is cut into pieces much longer than the memory 1 / (c omega_b). Each piece of each coordinate gives one vector
 of moments; Hotelling's T^2 tells whether their mean is the formula's. The statistics must not depend on the time step.
 """
 

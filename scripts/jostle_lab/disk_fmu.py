@@ -83,13 +83,19 @@ class DiskFmu:
             again, *_ = self._fmu.updateDiscreteStates()
         self._fmu.enterStepMode()
 
+    def read(self, name: str) -> float:
+        """Present value of a real variable."""
+        if name not in self._references:
+            raise LabError(f"{self.path} has no variable {name}. Bundle it with `jostle fmu three_disk --drive input`.")
+        return float(self._get_real([self._references[name]])[0])
+
     def velocity(self) -> float:
         """Angular velocity [rad/s]."""
-        return float(self._get_real([self._references[OUTPUTS[0]]])[0])
+        return self.read(OUTPUTS[0])
 
     def angle(self) -> float:
         """Angle [rad]."""
-        return float(self._get_real([self._references[OUTPUTS[1]]])[0])
+        return self.read(OUTPUTS[1])
 
     def states(self) -> tuple[int, int]:
         """What both contacts do: 1 open, 2 stick, 3 slip counter-clockwise, 4 slip clockwise."""
@@ -125,7 +131,7 @@ class DiskFmu:
     def close(self) -> None:
         """Free the instance and its folder."""
         if self._fmu is not None:
-            with suppress(FMICallException, Exception):  # an instance that never ran cannot be terminated
+            with suppress(FMICallException):  # an instance that never ran cannot be terminated
                 self._fmu.terminate()
             self._fmu.freeInstance()
             self._fmu = None

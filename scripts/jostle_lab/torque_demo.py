@@ -1,12 +1,14 @@
 """A PI controller holds the angular velocity of a disk by torque, in spite of stick and slip at its two contacts.
 
-Three couplings of the same physics: FMI 2.0 and FMI 3.0 stepped plainly, and FMI 3.0 with event mode, where it ends
-a step when a contact begins to stick or slip and the controller acts at that instant rather than at its next sample.
+Couplings of the same physics: FMI 2.0 and FMI 3.0 stepped plainly, and FMI 3.0 with event mode, where a step ends when
+a contact begins to stick or slip and the controller acts at that instant rather than at its next sample. The last one
+uses what event mode tells: when a contact has stuck on the way to another reference, it takes the integral at once to
+the torque that friction holds (P 5.3, 5.5) instead of waiting for the error to build it up.
 """
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -21,10 +23,6 @@ from jostle_lab.figures import STYLE, WIDTH
 from jostle_lab.report import markdown_table
 from jostle_lab.tables import write_table
 
-INERTIA = 0.05
-"""m R^2 / 2 of the default disk [kg m2]."""
-LIMITS = 0.11433
-"""Torque that friction holds without tilt, A_0 (P 5.4) [N m]."""
 BAND = 0.02
 """A segment has settled when the velocity stays within this share of the step of its reference."""
 
@@ -45,22 +43,47 @@ END = 10.0
 """[s]."""
 
 
+@dataclass(frozen=True)
+class Plant:
+    """What the controller is designed for."""
+
+    inertia: float
+    """m R^2 / 2 [kg m2]."""
+    clockwise: float
+    """A_S1, the torque that friction holds clockwise [N m]."""
+    counter_clockwise: float
+    """A_S2 [N m]."""
+
+    @classmethod
+    def of(cls, fmu: DiskFmu) -> "Plant":
+        """Of the disk in an FMU, by P 5.3 to 5.5."""
+        names = ("gravity", "disk.mass", "disk.radius", "contact.friction", "support.angle", "tilt")
+        gravity, mass, radius, friction, half_angle, tilt = (fmu.read(name) for name in names)
+        unit = gravity * mass * friction * radius / (math.cos(half_angle) * (1.0 + friction**2))
+        shares = [math.cos(tilt) + sign * friction * math.sin(tilt) for sign in (1.0, -1.0)]
+        return cls(0.5 * mass * radius**2, unit * shares[0], unit * shares[1])
+
+
 @dataclass
 class Controller:
     """Proportional and integral, with the integral held while the torque is at its bound.
 
-    With I the inertia and no friction, `proportional = 2 omega_c I` and `integral = omega_c^2 I` make the closed loop a
-    critically damped one of omega_c.
+    With I the inertia and no friction, `2 omega_c I` and `omega_c^2 I` make the closed loop a critically damped one.
     """
 
-    proportional: float = 2.0 * 20.0 * INERTIA
-    """[N m s]."""
-    integral: float = 20.0**2 * INERTIA
-    """[N m]."""
-    bound: float = 1.0
-    """Largest torque [N m]."""
+    plant: Plant
+    rate: float = 20.0
+    """omega_c [rad/s]."""
+    bound: float = 0.0
+    """Largest torque [N m]; 0: ten times what friction holds and what gives the rate in 1 / omega_c."""
     stored: float = field(default=0.0, init=False)
     at: float = field(default=0.0, init=False)
+
+    def __post_init__(self) -> None:
+        """Choose the bound."""
+        self.proportional, self.integral = 2.0 * self.rate * self.plant.inertia, self.rate**2 * self.plant.inertia
+        if self.bound == 0.0:
+            self.bound = 10.0 * max(self.plant.clockwise, self.plant.counter_clockwise, self.plant.inertia)
 
     def act(self, now: float, reference: float, velocity: float) -> float:
         """Torque from `now` [s] on [N m]. Calls may be apart by any time."""
@@ -72,6 +95,11 @@ class Controller:
         if torque == wanted or (stored - self.stored) * wanted < 0.0:
             self.stored = stored
         return torque
+
+    def stuck(self, reference: float) -> None:
+        """The disk has stopped: start the integral where friction gives way in the sense of the reference."""
+        if reference != 0.0:
+            self.stored = self.plant.counter_clockwise if reference > 0.0 else -self.plant.clockwise
 
 
 @dataclass(frozen=True)
@@ -94,9 +122,9 @@ def reference_at(now: float) -> float:
     return [segment.reference for segment in PROFILE if segment.begin <= now + 1e-12][-1]
 
 
-def run(fmu: DiskFmu, name: str, sample: float, step: float) -> Record:
+def run(fmu: DiskFmu, name: str, sample: float, step: float, unstick: bool = False) -> Record:
     """Controller every `sample` [s] and, if the FMU tells events, at events too; rows each `step` [s]."""
-    controller, rows, events = Controller(), [], 0
+    controller, rows, events = Controller(Plant.of(fmu)), [], 0
     begun = time.perf_counter()
     steps, each = round(END / step), round(sample / step)
     torque = 0.0
@@ -107,6 +135,8 @@ def run(fmu: DiskFmu, name: str, sample: float, step: float) -> Record:
         rows.append((fmu.time, fmu.velocity(), torque, *fmu.states()))
         while fmu.step((index + 1) * step):
             events += 1
+            if unstick and 2 in fmu.states():
+                controller.stuck(reference_at(fmu.time))
             torque = controller.act(fmu.time, reference_at(index * step), fmu.velocity())
             fmu.apply(torque)
             rows.append((fmu.time, fmu.velocity(), torque, *fmu.states()))
@@ -158,28 +188,31 @@ def qualities(record: Record) -> list[Quality]:
     return found
 
 
-def draw(records: Sequence[Record]) -> Figure:
+def draw(records: Sequence[Record], plant: Plant) -> Figure:
     """Velocity, torque and contacts against time."""
     figure = Figure(figsize=(WIDTH, 5.6), layout="constrained")
     top, middle, bottom = figure.subplots(3, 1, sharex=True, height_ratios=(3, 3, 1))
     grid = np.linspace(0.0, END, 4001)
     top.plot(grid, [reference_at(float(t)) for t in grid], color="0.1", lw=0.8, ls="--", label="reference")
-    styles = (("#9dbfe0", 3.0), ("#d07a1f", 1.6), ("#14406f", 0.7))
+    styles = (("#9dbfe0", 3.4), ("#d07a1f", 2.0), ("0.1", 0.7), ("#c0272d", 1.0))
     for record, (colour, width) in zip(records, styles, strict=False):
         top.plot(record.time, record.velocity, color=colour, lw=width, label=record.name)
         middle.plot(record.time, record.torque, color=colour, lw=width)
-    for sign in (-1.0, 1.0):
-        middle.axhline(sign * LIMITS, color="0.4", lw=0.7, ls=":")
-    middle.text(0.05, LIMITS, "friction", va="bottom", fontsize=7)
+    for limit in (plant.counter_clockwise, -plant.clockwise):
+        middle.axhline(limit, color="0.4", lw=0.7, ls=":")
+    middle.text(1.0, plant.counter_clockwise, "friction holds", va="bottom", fontsize=7)
     shown = records[-1]
     for contact in range(2):
         for state, colour in ((1, "#c0272d"), (2, "0.75"), (3, "#1f5fa8"), (4, "#d07a1f")):
             inside = shown.states[:, contact] == state
             bottom.plot(shown.time[inside], np.full(np.count_nonzero(inside), contact + 1), "|", color=colour, ms=9)
     bottom.set(yticks=(1, 2), yticklabels=("left", "right"), ylim=(0.4, 2.6), xlabel="time [s]")
-    bottom.set_title("contacts: grey stick, blue slip counter-clockwise, orange slip clockwise, red open", fontsize=8)
+    bottom.set_title(
+        "contacts of the last: grey stick, blue slip counter-clockwise, orange slip clockwise, red open", fontsize=8
+    )
     top.set(ylabel="angular velocity [rad/s]", xlim=(0.0, END))
-    middle.set(ylabel="torque [N m]", ylim=(-0.5, 0.5))
+    shown_torque = 4.0 * max(plant.clockwise, plant.counter_clockwise)
+    middle.set(ylabel="torque [N m]", ylim=(-shown_torque, shown_torque))
     top.legend(loc="upper right", ncols=2)
     return figure
 
@@ -216,16 +249,18 @@ def page(records: Sequence[Record], sample: float) -> str:
 
 
 def demonstrate(fmi2: Path, fmi3: Path, results: Path, sample: float, parameters: dict[str, float]) -> list[Path]:
-    """Run all three couplings; write torque.csv, torque.png and torque.md; return their paths."""
-    couplings: list[tuple[str, Callable[[], DiskFmu]]] = [
-        ("FMI 2.0, plain steps", lambda: DiskFmu(fmi2, parameters)),
-        ("FMI 3.0, plain steps", lambda: DiskFmu(fmi3, parameters)),
-        ("FMI 3.0, event mode", lambda: DiskFmu(fmi3, parameters, events=True)),
+    """Run all couplings; write torque.csv, torque.png and torque.md; return their paths."""
+    couplings = [
+        ("FMI 2.0, plain steps", fmi2, False, False),
+        ("FMI 3.0, plain steps", fmi3, False, False),
+        ("FMI 3.0, event mode", fmi3, True, False),
+        ("the same, unsticks", fmi3, True, True),
     ]
     records = []
-    for name, make in couplings:
-        with make() as fmu:
-            records.append(run(fmu, name, sample, 1e-3))
+    for name, path, events, unstick in couplings:
+        with DiskFmu(path, parameters, events) as fmu:
+            plant = Plant.of(fmu)
+            records.append(run(fmu, name, sample, 1e-3, unstick))
     results.mkdir(parents=True, exist_ok=True)
     table, picture, text = results / "torque.csv", results / "torque.png", results / "torque.md"
     rows: list[dict[str, Any]] = [
@@ -235,6 +270,6 @@ def demonstrate(fmi2: Path, fmi3: Path, results: Path, sample: float, parameters
     ]
     write_table(table, rows)
     with mpl.rc_context(STYLE):  # type: ignore[arg-type]
-        draw(records).savefig(picture)
+        draw(records, plant).savefig(picture)
     text.write_text(page(records, sample))
     return [table, picture, text]

@@ -236,3 +236,55 @@ impl Excitation for RandomSupports {
         phases(&self.now) && phases(&self.next) && self.duration > 0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn covariance(step: &GaussianStep) -> [f64; 3] {
+        let [a, b, c] = step.root;
+        [a * a, a * b, b * b + c * c]
+    }
+
+    /// `E S E^T` for the covariance S = (xx, xv, vv).
+    fn carried(step: &GaussianStep, [xx, xv, vv]: [f64; 3]) -> [f64; 3] {
+        let [[a, b], [c, d]] = step.transition;
+        [
+            a * a * xx + 2.0 * a * b * xv + b * b * vv,
+            a * c * xx + (a * d + b * c) * xv + b * d * vv,
+            c * c * xx + 2.0 * c * d * xv + d * d * vv,
+        ]
+    }
+
+    /// Two steps of h have the law of one of 2h, and every step keeps the steady state: what "exact" means.
+    #[test]
+    fn steps_compose_and_keep_the_steady_state() {
+        for ratio in [1e-3, 0.5, 1.0, 3.0] {
+            let omega = 62.8;
+            for duration in [1e-9, 1e-6, 1e-4, 1e-3] {
+                let (one, two) = (
+                    GaussianStep::new(omega, ratio, duration),
+                    GaussianStep::new(omega, ratio, 2.0 * duration),
+                );
+                let scatter = covariance(&one);
+                let composed = carried(&one, scatter);
+                let steady = carried(&one, [1.0, 0.0, omega * omega]);
+                let sizes = [1.0, omega, omega * omega];
+                for row in 0..3 {
+                    let sum = composed[row] + scatter[row];
+                    let expected = covariance(&two)[row];
+                    assert!(
+                        (sum - expected).abs() < 1e-13 * expected.abs(),
+                        "{ratio} {duration} {row}: {sum:e} {expected:e}"
+                    );
+                    let kept = steady[row] + scatter[row];
+                    let expected = [1.0, 0.0, omega * omega][row];
+                    assert!(
+                        (kept - expected).abs() < 1e-14 * sizes[row],
+                        "{ratio} {duration} {row}: {kept:e}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -78,7 +78,7 @@ def lines(laboratory: Laboratory, title: str, quick: bool) -> list[Line]:
     for amplitude, onset in onsets.items():
         tilts = QUICK_TILTS if quick else TILTS
         # Some close to the onset, where the scaling shows.
-        near = [] if quick or amplitude == AMPLITUDES[0] else [onset + step for step in (0.004, 0.01, 0.02, 0.035)]
+        near = [] if amplitude == AMPLITUDES[0] else [onset + step for step in (0.004, 0.01, 0.02, 0.035)]
         tilts = tuple(sorted({*tilts, *(float(tilt) for tilt in near if tilt < TILTS[-1])}))
         chosen[amplitude] = tuple(Torque(tilt, amplitude) for tilt in tilts)
     done = turnings(laboratory, title, [torque for torques in chosen.values() for torque in torques])
@@ -208,8 +208,7 @@ def logarithmic(laboratory: Laboratory, quick: bool, _seeds: int | None = None) 
     panel.set(xlabel=r"$\theta_T - \theta_{S2}$ [rad]", ylabel=r"$\bar\omega$ [rad/s]", ylim=(1e-7, 0.2))
     panel.legend()
     near, far = (0.0, 0.08), (0.2, math.inf)
-    window = (0.0, math.inf) if quick else near
-    close = {line.amplitude: _slopes(line, *window) for line in found}
+    close = {line.amplitude: _slopes(line, *near) for line in found}
     wide = {line.amplitude: _slopes(line, *far) for line in found}
     stated = [
         Statement(
@@ -226,10 +225,7 @@ def logarithmic(laboratory: Laboratory, quick: bool, _seeds: int | None = None) 
             Verdict.PARTLY if wide[0.115][0][0] > 2.2 else Verdict.AGREES,
         ),
     ]
-    page = [
-        *notes(),
-        "slopes: theta_T - theta_S2 up to 0.08 rad" + (" (quick: all)" if quick else "") + ", and from 0.2 rad on",
-    ]
+    page = [*notes(), "slopes: theta_T - theta_S2 up to 0.08 rad, and from 0.2 rad on"]
     return Product("Figure 5.5: scaling with the tilt", rows(found), figure, stated, page)
 
 

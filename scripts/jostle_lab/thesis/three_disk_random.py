@@ -23,7 +23,7 @@ from jostle_lab.thesis.wedge import shades
 
 SETTLING = 0.5
 """Time unobserved at the start of a run [s]; noise is forgotten in 1 / (c omega_b) = 0.03 s."""
-AS_DRAWN, MIRRORED = 1.0, 3.0
+AS_DRAWN, MIRRORED = 1, 3
 POINTS = ("s1", "s2", "t1", "t2")
 TILTS_58 = tuple(share * math.pi for share in (0.0, 0.02, 0.04, 0.06, 0.08))
 AMPLITUDES_59 = (2e-5, 4e-5, 6e-5, 8e-5, 1e-4)
@@ -53,7 +53,7 @@ class Place:
     amplitude: float
     """A_b [m]."""
 
-    def run(self, seed: int, noise: float, effort: Effort) -> Run:
+    def run(self, seed: int, noise: int, effort: Effort) -> Run:
         """One run."""
         settings = (
             ("tilt", self.tilt),

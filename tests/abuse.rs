@@ -396,8 +396,8 @@ scenes! {
     wedge_event_driven_on_input: WedgeEventDriven<FollowsInput>, 20, 60;
     wedge_molecular_dynamics_on_sine: WedgeMolecularDynamics<Sine>, 12, 60;
     wedge_molecular_dynamics_on_input: WedgeMolecularDynamics<FollowsInput>, 12, 60;
-    three_disk_on_input: ThreeDiskOnInput, 20, 60;
-    three_disk_on_harmonic_torque: ThreeDiskOnHarmonicTorque, 20, 60;
-    three_disk_on_random_supports: ThreeDiskOnRandomSupports, 20, 60;
-    three_disk_on_sine: ThreeDiskOnSine, 20, 60;
+    three_disk_on_input: ThreeDiskOnInput, 12, 40;
+    three_disk_on_harmonic_torque: ThreeDiskOnHarmonicTorque, 12, 40;
+    three_disk_on_random_supports: ThreeDiskOnRandomSupports, 12, 40;
+    three_disk_on_sine: ThreeDiskOnSine, 12, 40;
 }

@@ -39,7 +39,7 @@ fn any_way_there_gives_the_same_bits<E: ThreeDiskDrive>(more: &[(&str, Value)]) 
     let (given, mut once) = busy::<ThreeDisk<E>>(more);
     once.advance_to(end, &given).unwrap();
     let slips = outputs_of(&once, &given).integer("slips");
-    assert!(slips > 3, "{slips} slips");
+    assert!(slips > 2, "{slips} slips");
 
     let (_, mut often) = busy::<ThreeDisk<E>>(more);
     let mut middle = None;
@@ -76,8 +76,9 @@ fn any_way_there_gives_the_same_bits<E: ThreeDiskDrive>(more: &[(&str, Value)]) 
 #[test]
 fn ways_under_a_held_torque() {
     any_way_there_gives_the_same_bits::<jostle::drive::excitation::HeldTorque>(&[
-        ("torque", 0.14.into()),
-        ("disk.drop_height", 1e-3.into()),
+        ("torque", (-0.14).into()),
+        ("disk.initial_angular_velocity", 1.0.into()),
+        ("disk.drop_height", 0.02.into()),
     ]);
 }
 
@@ -185,15 +186,15 @@ fn a_mirrored_disk_turns_the_other_way_to_the_bit() {
         let more = [
             ("tilt", (0.2 * sign).into()),
             ("torque", (0.14 * sign).into()),
-            ("disk.initial_angular_velocity", (0.3 * sign).into()),
-            ("disk.drop_height", 2e-3.into()),
+            ("disk.initial_angular_velocity", sign.into()),
+            ("disk.drop_height", 0.02.into()),
         ];
         let (given, mut scene) = busy::<ThreeDiskOnInput>(&more);
         scene.advance_to(0.4, &given).unwrap();
         outputs_of(&scene, &given)
     };
     let one = run(1.0);
-    assert!(one.integer("slips") > 3 && one.integer("detachments") > 0);
+    assert!(one.integer("slips") > 2 && one.integer("detachments") > 0);
     mirrored(&one, &run(-1.0));
 
     let run = |tilt: f64, noise: i64| {
@@ -230,14 +231,13 @@ fn sliding_regimes_are_those_of_the_limits() {
         assert_eq!(seen.integer("sliding_regime"), regime, "A_e = {amplitude}");
         assert_eq!(seen.integer("detachments"), 0);
         let turned = seen.real("disk.angle[1]");
-        assert!(
-            if regime == 1 {
-                turned.abs() < 1e-4
-            } else {
-                turned > 1e-3
-            },
-            "{regime}: {turned}"
-        );
+        println!("A_e = {amplitude}: turned by {turned} rad");
+        // Below the limits the disk rolls a little, as far as the contacts yield: some tau / k_n.
+        assert!(if regime == 1 {
+            turned.abs() < 1e-3
+        } else {
+            turned > 0.01
+        });
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod assignments;
 mod describe;
+mod fields;
 mod fmu;
 mod run;
 mod scenes;
@@ -32,6 +33,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Describe(describe::Describe),
+    Fields(fields::Fields),
     Fmu(fmu::Fmu),
     Run(run::Run),
     Theory(theory::Theory),
@@ -119,6 +121,7 @@ impl fmt::Display for Failure {
 pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Describe(describe) => describe.execute(),
+        Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
         Command::Run(run) => run.execute(),
         Command::Theory(theory) => theory.execute(),

@@ -86,6 +86,7 @@ pub enum Unit {
     NewtonPerMetre,
     NewtonSecond,
     Joule,
+    Watt,
     NewtonMetre,
     NewtonMetrePerSecond,
 }
@@ -109,6 +110,7 @@ impl Unit {
             Self::NewtonPerMetre => "N/m",
             Self::NewtonSecond => "N.s",
             Self::Joule => "J",
+            Self::Watt => "W",
             Self::NewtonMetre => "N.m",
             Self::NewtonMetrePerSecond => "N.m/s",
         }
@@ -132,7 +134,7 @@ impl Unit {
             Self::NewtonPerMetre => (1, 0, -2, 0),
             Self::NewtonSecond => (1, 1, -1, 0),
             Self::Joule | Self::NewtonMetre => (1, 2, -2, 0),
-            Self::NewtonMetrePerSecond => (1, 2, -3, 0),
+            Self::Watt | Self::NewtonMetrePerSecond => (1, 2, -3, 0),
         }
     }
 }

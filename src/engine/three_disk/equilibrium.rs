@@ -17,26 +17,25 @@ pub struct NoEquilibrium;
 /// A contact would have to pull, or overlaps are no longer small.
 pub fn equilibrium(bench: &Bench, supports: &[SupportMotion; 2]) -> Result<[f64; 2], NoEquilibrium> {
     let stiffness = bench.normal.stiffness;
-    // Force along x and y, and its derivatives, per k_n.
-    let forces = |[x, y]: [f64; 2]| {
-        let mut force = [0.0, -bench.mass * bench.gravity / stiffness];
-        let mut slope = [[0.0; 2]; 2];
-        let mut least = f64::INFINITY;
-        for (frame, support) in bench.frames.iter().zip(supports) {
-            let at = kinematics(frame, bench.curvature, bench.radius, [x, y, 0.0], [0.0; 3], support);
-            let normal = [0, 1].map(|axis| at.normal * frame.normal[axis] + at.tangent * frame.tangent[axis]);
-            let tangent = [normal[1], -normal[0]];
-            // The normal turns by 1/r for a displacement along the tangent.
-            let turning = bench.curvature * at.overlap * at.shortness;
-            least = least.min(at.overlap);
-            for row in 0..2 {
-                force[row] += at.overlap * normal[row];
-                for column in 0..2 {
-                    slope[row][column] -= normal[row] * normal[column] - turning * tangent[row] * tangent[column];
-                }
-            }
-        }
-        (force, slope, least)
+    // Overlap of a contact, its force along x and y, and the derivatives of that, per k_n.
+    let contact = |index: usize, [x, y]: [f64; 2]| {
+        let (frame, support) = (&bench.frames[index], &supports[index]);
+        let at = kinematics(frame, bench.curvature, bench.radius, [x, y, 0.0], [0.0; 3], support);
+        let normal = [0, 1].map(|axis| at.normal * frame.normal[axis] + at.tangent * frame.tangent[axis]);
+        let tangent = [normal[1], -normal[0]];
+        // The normal turns by 1/r for a displacement along the tangent.
+        let turning = bench.curvature * at.overlap * at.shortness;
+        let slope = [0, 1]
+            .map(|row| [0, 1].map(|column| turning * tangent[row] * tangent[column] - normal[row] * normal[column]));
+        (at.overlap, normal.map(|part| at.overlap * part), slope)
+    };
+    // Sums of two first, so that mirrored benches give mirrored bits.
+    let forces = |place: [f64; 2]| {
+        let ((overlap_1, force_1, slope_1), (overlap_2, force_2, slope_2)) = (contact(0, place), contact(1, place));
+        let weight = bench.mass * bench.gravity / stiffness;
+        let force = [force_1[0] + force_2[0], (force_1[1] + force_2[1]) - weight];
+        let slope = [0, 1].map(|row| [0, 1].map(|column| slope_1[row][column] + slope_2[row][column]));
+        (force, slope, overlap_1.min(overlap_2))
     };
     let mut place = [0.0; 2];
     for _ in 0..50 {

@@ -1,4 +1,4 @@
-"""A packing FMU as `Grains`, through fmpy, for FMI 2.0 and FMI 3.0 alike. Only this file knows fmpy.
+"""An FMU of disks as `Grains`, through fmpy, for FMI 2.0 and FMI 3.0 alike. Only this file knows fmpy.
 
 Calls in the loop go straight to the C functions that fmpy has loaded, with arrays made once: a few microseconds each
 where fmpy's own wrappers build arrays anew.
@@ -66,7 +66,7 @@ class _Variables:
 
 
 class FmuGrains:
-    """One instance of a packing FMU.
+    """One instance of an FMU of disks on a base that follows inputs: a packing, unless a subclass says otherwise.
 
     Args:
         path: the FMU.
@@ -76,9 +76,11 @@ class FmuGrains:
 
     """
 
+    scene = "packing"
+
     def __init__(self, path: Path, parameters: Mapping[str, float] | None = None) -> None:
         if not path.is_file():
-            raise LabError(f"No FMU at {path}. Make one: target/release/jostle fmu packing --fmi 3 --out {path}")
+            raise LabError(f"No FMU at {path}. Make one: target/release/jostle fmu {self.scene} --fmi 3 --out {path}")
         self.path = path
         self.costs = {"step": 0.0, "get and set": 0.0, "save and restore": 0.0}
         self._log: list[str] = []
@@ -98,13 +100,13 @@ class FmuGrains:
     def _instantiate(self) -> None:
         description = self._description
         if description.coSimulation is None:
-            raise LabError(f"{self.path} has no co-simulation interface. Bundle it with `jostle fmu packing`.")
+            raise LabError(f"{self.path} has no co-simulation interface. Bundle it with `jostle fmu {self.scene}`.")
         self.fmi_version = 2 if description.fmiVersion.startswith("2") else 3
         arguments = {
             "guid": description.guid,
             "unzipDirectory": self._directory,
             "modelIdentifier": description.coSimulation.modelIdentifier,
-            "instanceName": "packing",
+            "instanceName": self.scene,
         }
         if self.fmi_version == 2:
             fmu: Any = FMU2Slave(**arguments)
@@ -157,14 +159,17 @@ class FmuGrains:
         self._positions = self._group([f"disk.{axis}[{i}]" for i in indices for axis in "xy"])
         self.radii = self._read(self._group([f"disk.radius[{i}]" for i in indices])).copy()
         self.gravity = self.read("gravity")
-        self.box_width = self.read("box.width")
+        self.box_width, self.weight = self._width_and_weight()
+
+    def _width_and_weight(self) -> tuple[float, float]:
+        """Width of the box [m] and weight of the disks [N]."""
         area = float(np.pi * np.sum(self.radii**2))
-        self.weight = self.read("disk.surface_density") * area * self.gravity
+        return self.read("box.width"), self.read("disk.surface_density") * area * self.gravity
 
     def _variable(self, name: str) -> Any:
         if name not in self._variables:
             raise LabError(
-                f"{self.path} has no variable {name}. Is it a packing bundled with `jostle fmu packing --drive input`?"
+                f"{self.path} has no variable {name}. Is it bundled with `jostle fmu {self.scene} --drive input`?"
             )
         return self._variables[name]
 

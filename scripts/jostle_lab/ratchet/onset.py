@@ -71,7 +71,7 @@ def fit_onset(
         raise LabError(f"An onset has three parameters; {len(x)} values of Gamma are too few. Give six or more.")
     means = np.array([np.mean(v) for v in runs])
     w = np.ones(len(x)) if weights is None else np.asarray(weights, dtype=np.float64)
-    grid = _Grid(x, w / w.mean())
+    grid = _Grid(x, means, w / w.mean())
     start = grid.best(means[None, :])[0]
     threshold, exponent, scale = _polished(x, means, grid.weights, start)
     threshold, exponent = float(threshold), float(exponent)
@@ -96,19 +96,21 @@ def _resampled(runs: Sequence[Sequence[float]]) -> Numbers:
 class _Grid:
     """Shapes of all pairs (Gamma_c, gamma), normalised, so that the best pair is the largest projection."""
 
-    def __init__(self, gammas: Numbers, weights: Numbers) -> None:
+    def __init__(self, gammas: Numbers, means: Numbers, weights: Numbers) -> None:
         self.weights = weights
-        thresholds = np.arange(gammas.min(), gammas.max(), THRESHOLD_STEP)
-        # At least three points above the threshold: two parameters are fitted to them.
-        thresholds = thresholds[[int(np.count_nonzero(gammas > t)) >= 3 for t in thresholds]]
+        # The threshold is below the first point that is at half of the largest velocity, or it would explain nothing.
+        moving = gammas[np.abs(means) >= 0.5 * np.abs(means).max()].min()
+        thresholds = np.arange(gammas.min(), moving, THRESHOLD_STEP)
+        if len(thresholds) == 0:
+            raise LabError(f"All of Gamma from {gammas.min():g} on is above the onset. Add smaller values.")
         self.pairs = np.array([(t, e) for t in thresholds for e in EXPONENTS])
         rising = np.maximum(gammas[None, :] / self.pairs[:, :1] - 1.0, 0.0) ** self.pairs[:, 1:]
         self.shapes = rising / np.sqrt(np.sum(weights * rising**2, axis=1))[:, None]
 
     def best(self, velocities: Numbers) -> Numbers:
         """Best pair of each row of velocities, shape (rows, 2)."""
-        projections = np.abs((velocities * self.weights) @ self.shapes.T)
-        return np.asarray(self.pairs[np.argmax(projections, axis=1)])
+        chunks = np.array_split(velocities * self.weights, max(1, len(velocities) // 50))  # bounds the memory
+        return self.pairs[np.concatenate([np.argmax(np.abs(chunk @ self.shapes.T), axis=1) for chunk in chunks])]
 
 
 def _polished(gammas: Numbers, means: Numbers, weights: Numbers, start: Numbers) -> tuple[float, float, float]:

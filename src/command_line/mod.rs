@@ -4,6 +4,7 @@
 
 mod assignments;
 mod describe;
+mod fields;
 mod fmu;
 mod run;
 mod scenes;
@@ -31,6 +32,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Describe(describe::Describe),
+    Fields(fields::Fields),
     Fmu(fmu::Fmu),
     Run(run::Run),
 }
@@ -117,6 +119,7 @@ impl fmt::Display for Failure {
 pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Describe(describe) => describe.execute(),
+        Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
         Command::Run(run) => run.execute(),
     };

@@ -3,9 +3,9 @@
     controller -> voltage -> loudspeaker -> base displacement, velocity -> ratchet FMU -> reaction force -> loudspeaker
         ^--------------------- acceleration of the base <---------------------'
 
-Teeth and layer depth are those of a curve of F Fig. 10 (h = 6 mm, a = 0.25, n = 1.05). There the amplitude is the same at
-all frequencies and the flow turns from positive to negative. Here Gamma is held, so the amplitude falls as the frequency
-rises, and the flow turns the other way.
+Teeth and layer depth are those of a curve of F Fig. 10 (h = 6 mm, a = 0.25, n = 1.05). There the amplitude is the same
+at all frequencies and the flow turns from positive to negative. Here Gamma is held, so the amplitude falls as the
+frequency rises, and the flow turns the other way.
 """
 
 import math
@@ -163,11 +163,14 @@ def make(fmu: Path, plan: Plan, show_progress: bool = True) -> Product:
         for p in found.plateaus
     ]
     notes = [
-        f"teeth of F Fig. 10: h = 6 mm, a = 0.25, ten teeth; 30 disks, n = 1.05, each of {1e3 * ROD:g} g; seed {plan.seed}",
+        "teeth of F Fig. 10: h = 6 mm, a = 0.25, ten teeth",
+        f"30 disks, n = 1.05, steel rods of {1e3 * ROD:g} g; seed {plan.seed}",
         f"exchange every 1/{1 / STEP:.0f} s, {SETTLING:g} s to settle, then {plan.seconds:g} s in {BLOCKS} blocks",
         "loudspeaker of the packing's laboratory; lock-in over each period, U <- U (Gamma_set/Gamma)^0.3",
     ]
-    return Product("A shaker that holds Gamma, and grains that turn back", rows, draw(found, plan), statements(found, plan), notes)
+    return Product(
+        "A shaker that holds Gamma, and grains that turn back", rows, draw(found, plan), statements(found, plan), notes
+    )
 
 
 def statements(found: Sweep, plan: Plan) -> list[Statement]:
@@ -195,7 +198,7 @@ def statements(found: Sweep, plan: Plan) -> list[Statement]:
         Statement(
             "F Fig. 10, Gamma held instead of A",
             "the flow reverses as the frequency is swept",
-            f"sign changes at {', '.join(map(str, crossings)) or 'none'} Hz; velocities [cm/s] by frequency [Hz]: {flow}",
+            f"sign changes at {', '.join(map(str, crossings)) or 'none'} Hz; [cm/s] by frequency [Hz]: {flow}",
             verdict(bool(crossings)),
         ),
     ]
@@ -219,6 +222,8 @@ def draw(found: Sweep, plan: Plan) -> Figure:
         panel.tick_params(labelbottom=False)
     x, points = [p.frequency for p in found.plateaus], [p.velocity for p in found.plateaus]
     velocity_axes(velocity, "driving frequency [Hz]")
-    velocity.errorbar(x, [p.mean for p in points], yerr=[p.error for p in points], fmt="o-", ms=4, lw=0.9, color="#c0272d")
+    velocity.errorbar(
+        x, [p.mean for p in points], yerr=[p.error for p in points], fmt="o-", ms=4, lw=0.9, color="#c0272d"
+    )
     velocity.set_title(rf"flow at $\Gamma$ = {plan.gamma:g}, held by feedback")
     return figure

@@ -12,9 +12,48 @@ RUNS = {10: 30, 20: 18, 30: 12, 50: 7, 80: 7, 120: 7}
 """Disks (n = 0.35, 0.7, 1.05, 1.75, 2.8, 4.2) and the runs that F takes."""
 REVERSING = (1.05, 1.75, 2.8)
 """The layer depths that F says reverse."""
-FREQUENCIES = (12.0, 13.0, 14.0, 15.0, 16.0, 17.0, 18.0, 20.0, 22.0, 24.0, 25.0, 26.0, 28.0, 30.0, 32.5, 35.0, 37.5, 40.0)
+FREQUENCIES = (
+    12.0,
+    13.0,
+    14.0,
+    15.0,
+    16.0,
+    17.0,
+    18.0,
+    20.0,
+    22.0,
+    24.0,
+    25.0,
+    26.0,
+    28.0,
+    30.0,
+    32.5,
+    35.0,
+    37.5,
+    40.0,
+)
 """[Hz]; the range of F's figure is not given."""
-ONSET = (11.0, 12.0, 12.5, 13.0, 13.5, 14.0, 14.5, 15.0, 15.5, 16.0, 16.5, 17.0, 17.5, 18.0, 19.0, 20.0, 21.0, 22.0, 23.0)
+ONSET: tuple[float, ...] = (
+    11.0,
+    12.0,
+    12.5,
+    13.0,
+    13.5,
+    14.0,
+    14.5,
+    15.0,
+    15.5,
+    16.0,
+    16.5,
+    17.0,
+    17.5,
+    18.0,
+    19.0,
+    20.0,
+    21.0,
+    22.0,
+    23.0,
+)
 ONSET += (24.0, 26.0, 28.0, 30.0)
 """[Hz] of Fig. 12."""
 
@@ -120,7 +159,7 @@ def _linear(rise: Curve) -> Statement:
     critical = -offset / slope
     gradient = np.array([offset / slope**2, -1.0 / slope])
     error = float(np.sqrt(gradient @ covariance @ gradient))
-    ratio, p_value = chi_square(y - slope * x - offset, errors, lost=2)
+    ratio, p_value = chi_square((y - slope * x - offset).tolist(), errors.tolist(), lost=2)
     found = (
         f"line from {x[0]:g} to {x[-1]:g} Hz: critical frequency {Estimate(float(critical), error)} Hz, slope "
         f"{slope:.2g} cm/s per Hz, chi^2 per degree of freedom {ratio:.2g}, p = {p_value:.2g}"

@@ -17,7 +17,7 @@ THICK = 140
 SHAPES = ((5.0, 0.05), (5.0, 0.25), (6.0, 0.1), (9.0, 0.1), (9.0, 0.3), (12.0, 0.2), (16.0, 0.1))
 """Height [mm] and asymmetry of teeth whose transport is negative at n = 1, Figs 6 and 7."""
 NOTES = (
-    "60 mm wide (ten teeth), seven seeds of 30 s after 1 s; frequencies 20, 25 and 30 Hz, since F does not name its three",
+    "60 mm wide (ten teeth), seven seeds of 30 s after 1 s; 20, 25 and 30 Hz, since F does not name its three",
     "n = N / k, k = 60 mm / 2.1 mm",
 )
 

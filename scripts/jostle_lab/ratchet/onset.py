@@ -110,7 +110,8 @@ class _Grid:
     def best(self, velocities: Numbers) -> Numbers:
         """Best pair of each row of velocities, shape (rows, 2)."""
         chunks = np.array_split(velocities * self.weights, max(1, len(velocities) // 50))  # bounds the memory
-        return self.pairs[np.concatenate([np.argmax(np.abs(chunk @ self.shapes.T), axis=1) for chunk in chunks])]
+        best = np.concatenate([np.argmax(np.abs(chunk @ self.shapes.T), axis=1) for chunk in chunks])
+        return np.asarray(self.pairs[best])
 
 
 def _polished(gammas: Numbers, means: Numbers, weights: Numbers, start: Numbers) -> tuple[float, float, float]:

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 from jostle_lab.ratchet.cases import Case, Plan, Points
 from jostle_lab.ratchet.study import Table, joint
@@ -64,7 +65,7 @@ def statements(points: Points, case: Case) -> list[Statement]:
 
 
 def _dissipation(points: Points, case: Case) -> list[Statement]:
-    """Restitution and friction: does the sign stay, does dissipation weaken the flow?"""
+    """Whether the sign stays with other restitution and friction, and whether dissipation weakens the flow."""
     found = []
     for name, printed_name in (("collision.restitution", "restitution"), ("collision.friction", "friction")):
         values = sorted((*CHANGES[name], DEFAULTS[name]))
@@ -96,7 +97,7 @@ def _dissipation(points: Points, case: Case) -> list[Statement]:
 
 
 def _falls(values: list[float]) -> bool:
-    return all(later < earlier for earlier, later in zip(values, values[1:], strict=False))
+    return all(later < earlier for earlier, later in pairwise(values))
 
 
 def tables(points: Points, case: Case) -> list[Table]:
@@ -114,5 +115,7 @@ def tables(points: Points, case: Case) -> list[Table]:
     for warm_up in WARM_UPS:
         estimate = points[replace(case, warm_up=warm_up)].estimate
         rows.append([f"averaged from {warm_up:g} s on", str(estimate), f"{joint(estimate, value, error):+.1f}"])
-    title = f"Velocity [cm/s] of {PLACES[case]} with one thing changed, 30 runs each (default: 100); F: {value} +- {error}"
+    title = (
+        f"Velocity [cm/s] of {PLACES[case]} with one thing changed, 30 runs each (default: 100); F: {value} +- {error}"
+    )
     return [Table(title, ["changed", "ours", "joint errors from F"], rows)]

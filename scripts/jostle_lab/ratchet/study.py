@@ -117,7 +117,9 @@ class Curve:
     def resampled(self) -> Numbers:
         """Means of runs drawn with replacement, shape (RESAMPLES, points)."""
         generator = np.random.default_rng(RESAMPLES)
-        return np.column_stack([p.numbers[generator.integers(0, p.runs, (RESAMPLES, p.runs))].mean(1) for p in self.points])
+        return np.column_stack(
+            [p.numbers[generator.integers(0, p.runs, (RESAMPLES, p.runs))].mean(1) for p in self.points]
+        )
 
     def extremum(self) -> Estimate:
         """Where a parabola through the points has its vertex; error by the bootstrap."""
@@ -132,7 +134,10 @@ class Curve:
 
 
 def curves(
-    points: Points, family: Callable[[Case], float], x: Callable[[Case], float], where: Callable[[Case], bool] = lambda _: True
+    points: Points,
+    family: Callable[[Case], float],
+    x: Callable[[Case], float],
+    where: Callable[[Case], bool] = lambda _: True,
 ) -> dict[float, Curve]:
     """Curves against x(case), one for each value of family(case), both in rising order."""
     groups: dict[float, list[tuple[float, Point]]] = {}

@@ -1,6 +1,7 @@
 """F Fig. 11: the onset of transport, and what its threshold and exponent depend on."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -8,11 +9,33 @@ from matplotlib.figure import Figure
 from jostle_lab.figures import WIDTH
 from jostle_lab.ratchet.cases import Case, Plan, Points, frequency_of
 from jostle_lab.ratchet.onset import CONFIDENCE, Onset, fit_onset
-from jostle_lab.ratchet.study import Curve, Study, Table, curves, joint, listed, velocity_axes
+from jostle_lab.ratchet.study import Curve, Study, Table, curves, listed, velocity_axes
 from jostle_lab.thesis.product import Statement, Verdict, verdict
 from jostle_lab.thesis.wedge import draw_curve
 
-GAMMAS = (0.9, 1.0, 1.1, 1.15, 1.2, 1.25, 1.3, 1.35, 1.4, 1.45, 1.5, 1.55, 1.6, 1.7, 1.8, 1.9, 2.0, 2.2, 2.4, 2.6, 2.8)
+GAMMAS: tuple[float, ...] = (
+    0.9,
+    1.0,
+    1.1,
+    1.15,
+    1.2,
+    1.25,
+    1.3,
+    1.35,
+    1.4,
+    1.45,
+    1.5,
+    1.55,
+    1.6,
+    1.7,
+    1.8,
+    1.9,
+    2.0,
+    2.2,
+    2.4,
+    2.6,
+    2.8,
+)
 GAMMAS += (3.0, 3.25, 3.5, 3.75, 4.0, 4.5, 5.0, 5.5, 6.0)
 NEAR = (1.2, 1.25, 1.3, 1.35, 1.4, 1.45, 1.5, 1.55, 1.6, 1.7, 1.8, 2.0)
 """Where the mean may depend on the length of the run."""
@@ -86,7 +109,9 @@ def draw(points: Points) -> Figure:
     draw_curve(log, [d for d, _ in above], [e for _, e in above], "", **style)
     d = np.geomspace(0.01, SHOWN / onset.threshold.value - 1.0, 50)
     log.plot(d, onset.scale * d**onset.exponent.value, color="#c0272d", lw=1.1)
-    log.set(xscale="log", yscale="log", xlabel=r"$(\Gamma - \Gamma_c)/\Gamma_c$", ylabel=r"$\langle v_x \rangle$ [cm/s]")
+    log.set(
+        xscale="log", yscale="log", xlabel=r"$(\Gamma - \Gamma_c)/\Gamma_c$", ylabel=r"$\langle v_x \rangle$ [cm/s]"
+    )
     return figure
 
 
@@ -123,8 +148,8 @@ def statements(points: Points) -> list[Statement]:
         Statement(
             "IV D, Fig. 11",
             f"exponent {EXPONENT} +- {EXPONENT_ERROR}",
-            f"{onset.exponent} for Gamma up to {SHOWN:g}; {min(exponents):.2f} to {max(exponents):.2f} over the windows "
-            "of the table",
+            f"{onset.exponent} for Gamma up to {SHOWN:g}; {min(exponents):.2f} to {max(exponents):.2f} over the "
+            "windows of the table",
             verdict(onset.exponent.within(EXPONENT, EXPONENT_ERROR)),
         ),
     ]
@@ -149,7 +174,10 @@ def tables(points: Points) -> list[Table]:
     """Window, weights, tips, length and start of the runs."""
     curve = main_curve(points)
     windows = [
-        _fit_row(f"up to {largest:g}, {'inverse square errors' if weighted else 'equal weights'}", fit(curve, largest, weighted))
+        _fit_row(
+            f"up to {largest:g}, {'inverse square errors' if weighted else 'equal weights'}",
+            fit(curve, largest, weighted),
+        )
         for weighted in (False, True)
         for largest in WINDOWS
         if largest <= max(curve.x)
@@ -158,7 +186,7 @@ def tables(points: Points) -> list[Table]:
     found = [Table(f"Onset against the window and the weights of the fit, {interval}", HEADER, windows)]
     tips = []
     for tip in TIPS:
-        other = _curve(points, lambda c, tip=tip: dict(c.changes).get("tooth.tip_radius") == tip)
+        other = _curve(points, partial(_has_tip, tip))
         if other is not None:
             tips.append(_fit_row(f"tip radius {1e3 * tip:g} mm", fit(other)))
     if tips:
@@ -167,6 +195,10 @@ def tables(points: Points) -> list[Table]:
         found.append(Table("Onset against the tip radius, ten runs, Gamma up to 4, equal weights", HEADER, tips))
     lengths = _lengths(points)
     return [*found, lengths] if lengths else found
+
+
+def _has_tip(tip: float, case: Case) -> bool:
+    return dict(case.changes).get("tooth.tip_radius") == tip
 
 
 def _lengths(points: Points) -> Table | None:

@@ -61,13 +61,15 @@ def write(product: Product, folder: Path, command: str, footer: str) -> list[Pat
 
 
 def _page(product: Product, command: str, footer: str) -> str:
-    rows = [f"| {s.place} | {_cell(s.printed)} | {_cell(s.found)} | {s.verdict} |" for s in product.statements]
+    rows = [f"| {s.place} | {cell(s.printed)} | {cell(s.found)} | {s.verdict} |" for s in product.statements]
     notes = [f"- {note}" for note in product.notes]
     header = ["| where | printed | ours | |", "|:--|:--|:--|:--|"]
     tables = [line for table in product.tables for line in ("", *table.splitlines())]
-    return "\n".join([f"# {product.title}", "", f"`{command}`", "", *header, *rows, "", *notes, f"- {footer}", *tables, ""])
+    return "\n".join(
+        [f"# {product.title}", "", f"`{command}`", "", *header, *rows, "", *notes, f"- {footer}", *tables, ""]
+    )
 
 
-def _cell(text: str) -> str:
+def cell(text: str) -> str:
     """Text in a cell of a table."""
     return text.replace("|", "\\|")

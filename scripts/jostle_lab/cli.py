@@ -16,10 +16,10 @@ from jostle_lab.figures import draw_all
 from jostle_lab.fmu_grains import FmuFactory, fingerprint
 from jostle_lab.loudspeaker import Loudspeaker
 from jostle_lab.peers import compare
-from jostle_lab.report import write_report
-from jostle_lab.results import Results
 from jostle_lab.ratchet.command import ratchet_demo
 from jostle_lab.ratchet.page import ratchet_page
+from jostle_lab.report import write_report
+from jostle_lab.results import Results
 from jostle_lab.run import Plan, run
 from jostle_lab.sweep.command import sweep
 from jostle_lab.thesis.command import figure

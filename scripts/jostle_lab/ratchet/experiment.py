@@ -7,14 +7,14 @@ from jostle_lab.ratchet.onset import Onset, fit_onset
 from jostle_lab.ratchet.study import Curve, Study, Table, curves, listed, panel_of_curves
 from jostle_lab.thesis.product import Statement, Verdict, verdict
 
-GAMMAS = (1.0, 1.2, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2.0, 2.2, 2.5, 3.0, 3.5, 4.0)
+GAMMAS = (1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 3.0, 3.5, 4.0)
 BALLS = {"tooth.width": 12e-3, "disk.radius_min": 1.617e-3, "disk.radius_max": 1.683e-3, "disk.inertia_factor": 0.4}
 """w = 12 mm, balls of 3.3 mm +- 2 %, inertia of a ball."""
 DISKS = 148
 """Four layers in a cell of ten teeth."""
 THRESHOLD, EXPONENT = 1.7, 0.48
 """F's, without errors."""
-WINDOWS = (2.5, 3.0, 4.0)
+WINDOWS = (3.0, 4.0)
 SHOWN = 4.0
 
 
@@ -25,7 +25,7 @@ def case(gamma: float) -> Case:
 
 def plan(quick: bool) -> Plan:
     """Few runs: each costs a second or more."""
-    return {case(g): 2 if quick else 4 for g in GAMMAS[:: 2 if quick else 1]}
+    return {case(g): 2 if quick or g < 1.8 else 3 for g in GAMMAS}
 
 
 def _curve(points: Points) -> Curve:
@@ -84,7 +84,8 @@ EXPERIMENT = Study(
     statements,
     (
         "w = 12 mm, h = 7 mm, a = 0, A = 2 mm as in the experiment; disks of 3.3 mm +- 2 % with the inertia of balls",
-        "four layers (148 disks) on ten teeth, four seeds; restitution 0.8 and friction 0.1 of F's simulations",
+        "four layers (148 disks) on ten teeth, three seeds (two below Gamma = 1.8)",
+        "restitution 0.8 and friction 0.1 of F's simulations",
     ),
     tables,
 )

@@ -108,12 +108,16 @@ class FmuGrains:
             "modelIdentifier": description.coSimulation.modelIdentifier,
             "instanceName": self.scene,
         }
-        if self.fmi_version == 2:
-            fmu: Any = FMU2Slave(**arguments)
-            fmu.instantiate(callbacks=self._callbacks())
-        else:
-            fmu = FMU3Slave(**arguments)
-            fmu.instantiate(logMessage=self._record_log)
+        try:
+            if self.fmi_version == 2:
+                fmu: Any = FMU2Slave(**arguments)
+                fmu.instantiate(callbacks=self._callbacks())
+            else:
+                fmu = FMU3Slave(**arguments)
+                fmu.instantiate(logMessage=self._record_log)
+        except Exception as error:
+            said = " ".join(self._log) or f"{error}."
+            raise LabError(f"{self.path} cannot be instantiated. {said} Bundle it again after a build.") from error
         self._fmu = fmu
         library, prefix = fmu.dll, f"fmi{self.fmi_version}"
         self._do_step = getattr(library, f"{prefix}DoStep")
@@ -199,6 +203,16 @@ class FmuGrains:
     def read(self, name: str) -> float:
         """Present value of one Float64 variable."""
         return float(self._read(self._group([name]))[0])
+
+    def write(self, name: str, value: float) -> None:
+        """Set one Float64 input."""
+        group = self._group([name])
+        group.values[0] = value
+        if self.fmi_version == 2:
+            status = self._set(self._fmu.component, group.references, 1, group.pointer)
+        else:
+            status = self._set(self._fmu.component, group.references, 1, group.pointer, 1)
+        self._check(status, f"setting {name}")
 
     def step(self, displacement: float, velocity: float, step: float) -> float:
         """See `Grains.step`."""

@@ -12,7 +12,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -26,7 +26,7 @@ from jostle_lab.loudspeaker import Loudspeaker
 from jostle_lab.ratchet.controller import GammaController
 from jostle_lab.ratchet.study import velocity_axes
 from jostle_lab.thesis.product import Product, Statement, verdict
-from jostle_lab.thesis.statistics import Estimate, Numbers, zero_crossings
+from jostle_lab.thesis.statistics import Estimate, zero_crossings
 
 STEP = 1.0 / 4096.0
 """Of the exchange [s]: exact in binary, a hundred and more to a period."""
@@ -34,8 +34,6 @@ ROD = 3e-3
 """Mass of a disk [kg]: a steel rod of the diameter of F's disks, 11 cm long."""
 SETTLING = 1.0
 """After each change of frequency [s]; the loudspeaker needs 0.1 s, the flow some periods more."""
-BLOCKS = 8
-"""Of a plateau, for the standard error of its velocity."""
 FIRST_VOLTAGE = 1.0
 AMPLIFIER = 60.0
 """Largest voltage [V]."""
@@ -72,18 +70,26 @@ class Plateau:
     """Of the grains, and its standard error [cm/s]."""
 
 
+class Period(NamedTuple):
+    """A period of the drive, when it ends."""
+
+    time: float
+    """[s]."""
+    gamma: float
+    frequency: float
+    """[Hz]."""
+    voltage: float
+    """Amplitude from now on [V]."""
+    place: float
+    """Mean place of the grains to the right [m]."""
+
+
 @dataclass(frozen=True)
 class Sweep:
     """The whole run."""
 
     plateaus: Sequence[Plateau]
-    time: Numbers
-    """Ends of periods [s]."""
-    gamma: Numbers
-    """Of these periods."""
-    frequency: Numbers
-    place: Numbers
-    """Mean place of the grains [m]."""
+    periods: Sequence[Period]
 
 
 class Rig:
@@ -94,8 +100,7 @@ class Rig:
         self.speaker = Loudspeaker(STEP, plan.frequencies[0], grains.weight)
         self.coupling = Coupling(self.speaker, grains)
         self.controller = GammaController(plan.gamma, FIRST_VOLTAGE, AMPLIFIER, grains.gravity)
-        self.records: list[tuple[float, float, float, float]] = []
-        """Time, Gamma, frequency, place at the end of each period."""
+        self.records: list[Period] = []
 
     def run(self, seconds: float) -> None:
         """Advance; the controller acts at the end of each period."""
@@ -103,22 +108,23 @@ class Rig:
             turns = self.speaker.drive_turns
             if self.controller.update(self.speaker.acceleration(self.coupling.reaction_force), turns):
                 self.speaker.voltage_amplitude = self.controller.voltage
-                record = (self.speaker.time, self.controller.measured, self.speaker.drive_frequency)
-                self.records.append((*record, self.grains.travelled()))
+                self.records.append(self._period())
             self.coupling.run(1)
+
+    def _period(self) -> Period:
+        speaker, controller = self.speaker, self.controller
+        place = self.grains.place()
+        return Period(speaker.time, controller.measured, speaker.drive_frequency, controller.voltage, place)
 
     def plateau(self, frequency: float, seconds: float) -> Plateau:
         """Go to a frequency, settle, measure."""
         self.speaker.retune(frequency)
         self.run(SETTLING)
-        first, places, voltages = len(self.records), [self.grains.travelled()], []
-        for _ in range(BLOCKS):
-            self.run(seconds / BLOCKS)
-            places.append(self.grains.travelled())
-            voltages.append(self.controller.voltage)
-        velocities = 100.0 * np.diff(places) / (seconds / BLOCKS)
-        gammas = np.array([record[1] for record in self.records[first + 1 :]])
-        gamma, voltage = float(gammas.mean()), float(np.mean(voltages))
+        first = len(self.records)
+        self.grains.mark()
+        self.run(seconds)
+        gammas, voltages = np.array([(r.gamma, r.voltage) for r in self.records[first + 1 :]]).T
+        gamma, voltage = float(gammas.mean()), float(voltages.mean())
         unloaded = abs(self.speaker.steady_state(voltage).acceleration) / self.grains.gravity
         return Plateau(
             frequency,
@@ -126,7 +132,7 @@ class Rig:
             gamma * self.grains.gravity / (math.tau * frequency) ** 2,
             voltage,
             unloaded,
-            Estimate(float(velocities.mean()), float(velocities.std(ddof=1)) / math.sqrt(BLOCKS)),
+            self.grains.transport(),
         )
 
 
@@ -142,8 +148,7 @@ def sweep(fmu: Path, plan: Plan, show_progress: bool) -> Sweep:
         plateaus = [rig.plateau(frequency, plan.seconds) for frequency in bar]
     finally:
         grains.close()
-    time, gamma, frequency, place = np.array(rig.records).T
-    return Sweep(plateaus, time, gamma, frequency, place)
+    return Sweep(plateaus, rig.records)
 
 
 def make(fmu: Path, plan: Plan, show_progress: bool = True) -> Product:
@@ -165,7 +170,7 @@ def make(fmu: Path, plan: Plan, show_progress: bool = True) -> Product:
     notes = [
         "teeth of F Fig. 10: h = 6 mm, a = 0.25, ten teeth",
         f"30 disks, n = 1.05, steel rods of {1e3 * ROD:g} g; seed {plan.seed}",
-        f"exchange every 1/{1 / STEP:.0f} s, {SETTLING:g} s to settle, then {plan.seconds:g} s in {BLOCKS} blocks",
+        f"exchange every 1/{1 / STEP:.0f} s, {SETTLING:g} s to settle, then {plan.seconds:g} s from a mark on",
         "loudspeaker of the packing's laboratory; lock-in over each period, U <- U (Gamma_set/Gamma)^0.3",
     ]
     return Product(
@@ -209,12 +214,13 @@ def draw(found: Sweep, plan: Plan) -> Figure:
     figure = Figure(figsize=(WIDTH, 5.6), layout="constrained")
     mosaic = figure.subplot_mosaic([["gamma", "velocity"], ["frequency", "velocity"], ["place", "velocity"]])
     gamma, frequency, place, velocity = (mosaic[name] for name in ("gamma", "frequency", "place", "velocity"))
-    gamma.plot(found.time, found.gamma, lw=0.5, color="#1f5fa8")
+    time, gammas, frequencies, _, places = np.array(found.periods).T
+    gamma.plot(time, gammas, lw=0.5, color="#1f5fa8")
     gamma.axhline(plan.gamma, color="0.3", lw=0.7, ls="--")
     gamma.set(ylabel=r"$\Gamma$, each period", ylim=(0.0, 1.25 * plan.gamma))
-    frequency.plot(found.time, found.frequency, color="0.3", lw=1.0)
+    frequency.plot(time, frequencies, color="0.3", lw=1.0)
     frequency.set_ylabel("drive [Hz]")
-    place.plot(found.time, 100.0 * found.place, color="#c0272d", lw=1.0)
+    place.plot(time, 100.0 * places, color="#c0272d", lw=1.0)
     place.set(ylabel="mean place [cm]", xlabel="time [s]")
     for panel in (gamma, frequency, place):
         panel.sharex(place)

@@ -45,11 +45,11 @@ def test_onset_without_noise_is_found_to_rounding(threshold: float, exponent: fl
 
 
 def test_onset_intervals_cover_the_truth_as_often_as_they_say() -> None:
-    """Sixteen made-up data sets; intervals of 68 % miss five on the average, and more than eleven hardly ever."""
-    fits = [fit_onset(GAMMAS, made_up(1.31, 0.27, 0.4, seed)) for seed in range(1, 17)]
+    """Ten made-up data sets; intervals of 68 % miss three on the average, and more than seven hardly ever."""
+    fits = [fit_onset(GAMMAS, made_up(1.31, 0.27, 0.4, seed)) for seed in range(1, 11)]
     for parameter, truth in (("threshold", 1.31), ("exponent", 0.27)):
         found = [getattr(fit, parameter) for fit in fits]
-        assert sum(not f.low <= truth <= f.high for f in found) <= 11, found
+        assert sum(not f.low <= truth <= f.high for f in found) <= 7, found
         assert abs(np.mean([f.value for f in found]) - truth) < 0.03
     assert all(0.01 < f.exponent.high - f.exponent.low < 0.2 for f in fits)
 

@@ -86,6 +86,8 @@ class Point:
 
     velocities: tuple[float, ...]
     """One for each seed [cm/s]."""
+    prior: float | None = None
+    """Variance of single runs of points like this one, for those of few runs; see `lean_on_each_other`."""
 
     @cached_property
     def numbers(self) -> Numbers:
@@ -105,12 +107,49 @@ class Point:
     @cached_property
     def scatter(self) -> float:
         """Standard deviation of single runs."""
-        return float(self.numbers.std(ddof=1))
+        variance = float(self.numbers.var(ddof=1))
+        if self.prior is not None:
+            variance = ((self.runs - 1) * variance + PRIOR_FREEDOM * self.prior) / (self.runs - 1 + PRIOR_FREEDOM)
+        return math.sqrt(variance)
 
     def sign(self, significance: float = 3.0) -> int:
         """1 or -1 if the mean is that many standard errors from zero, else 0."""
         mean, error = self.estimate.mean, self.estimate.error
         return 0 if abs(mean) <= significance * error else int(math.copysign(1, mean))
+
+
+FEW = 5
+"""Runs from which on a point stands alone."""
+PRIOR_FREEDOM = 4.0
+"""Degrees of freedom that the variance of the others counts for."""
+AT_REST = 0.05
+"""A point whose runs are all slower [cm/s] is at rest, which scatters less."""
+
+
+def lean_on_each_other(points: "Points") -> dict[Case, Point]:
+    """The same points; the errors of those of few runs lean on the others of their kind.
+
+    Two or three runs often agree by chance. So where there are fewer than `FEW`, the variance of a run is a mean, by
+    degrees of freedom, of the point's own and of the median over points of as many disks, teeth and seconds that move.
+    """
+    kinds: dict[tuple[float, ...], list[float]] = {}
+    for case, point in points.items():
+        if not _at_rest(point):
+            kinds.setdefault(_kind(case), []).append(float(point.numbers.var(ddof=1)))
+    return {
+        case: replace(point, prior=float(np.median(kinds[_kind(case)])))
+        if point.runs < FEW and not _at_rest(point)
+        else point
+        for case, point in points.items()
+    }
+
+
+def _kind(case: Case) -> tuple[float, ...]:
+    return case.disks, case.teeth, case.seconds
+
+
+def _at_rest(point: Point) -> bool:
+    return bool(np.all(np.abs(point.numbers) < AT_REST))
 
 
 Points = Mapping[Case, Point]

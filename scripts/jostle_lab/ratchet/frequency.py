@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from jostle_lab.ratchet.cases import Case, Plan, Points
 from jostle_lab.ratchet.study import Curve, Study, curves, listed, panel_of_curves, share
-from jostle_lab.thesis.product import Statement, verdict
+from jostle_lab.thesis.product import Statement, Verdict, verdict
 from jostle_lab.thesis.statistics import Estimate, chi_square
 
 RUNS = {10: 30, 20: 18, 30: 12, 50: 7, 80: 7, 120: 5}
@@ -70,11 +70,13 @@ def _reversal(n: float, curve: Curve, crossings: list[Estimate]) -> Statement:
     first = next((f for f, s in zip(curve.x, signs, strict=True) if s == 1), None)
     positive = f", positive from {first:g} Hz" if first else ""
     by = listed(zip(curve.x, curve.estimates, strict=True))
+    # F does not say where its frequencies end: a reversal beyond those of its other figures may lie outside.
+    late = "; F does not say where its frequencies end" if crossings and crossings[0].mean > 28.0 else ""
     return Statement(
         "IV C, Fig. 10",
         f"n = {n:g}: {printed}",
-        f"sign changes at {', '.join(map(str, crossings)) or 'none'} Hz{positive}; by f [Hz]: {by}",
-        verdict(turned if reverses else not crossings),
+        f"sign changes at {', '.join(map(str, crossings)) or 'none'} Hz{positive}; by f [Hz]: {by}{late}",
+        verdict(turned) if reverses else Verdict.OPEN if late else verdict(not crossings),
     )
 
 
@@ -127,7 +129,8 @@ def _linear(rise: Curve) -> Statement:
     ratio, p_value = chi_square((y - slope * x - offset).tolist(), errors.tolist(), lost=2)
     found = (
         f"line from {x[0]:g} to {x[-1]:g} Hz: critical frequency {Estimate(float(critical), error)} Hz, slope "
-        f"{slope:.2g} cm/s per Hz, chi^2 per degree of freedom {ratio:.2g}, p = {p_value:.2g}"
+        f"{slope:.2g} cm/s per Hz, correlation {np.corrcoef(x, y)[0, 1]:.2f}; chi^2 per degree of freedom {ratio:.2g}, "
+        f"p = {p_value:.2g}"
     )
     return Statement("IV D, Fig. 12", printed, found, share([slope > 0.0, p_value > 0.01]))
 

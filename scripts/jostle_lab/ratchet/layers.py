@@ -12,6 +12,8 @@ from jostle_lab.thesis.product import Statement, verdict
 FREQUENCIES = (20.0, 25.0, 30.0)
 """[Hz]; F does not name its three."""
 DISKS = (10, 20, 30, 40, 50, 60, 80, 100, 120, 140)
+DEEPEST = 170
+"""At the highest frequency only."""
 THICK = 140
 """n = 4.9, about the most that F could run."""
 SHAPES = ((5.0, 0.05), (5.0, 0.25), (6.0, 0.1), (9.0, 0.1), (9.0, 0.3), (12.0, 0.2), (16.0, 0.1))
@@ -27,7 +29,8 @@ def plan_of(height: float, asymmetry: float, quick: bool) -> Plan:
     """F takes seven runs of 30 s."""
     disks = (10, 40, 80, 120) if quick else DISKS
     runs = {n: 2 if quick else 7 if n <= 80 else 4 for n in disks}
-    return {Case(height, asymmetry, f, n): runs[n] for f in FREQUENCIES for n in disks}
+    deepest = {} if quick else {Case(height, asymmetry, FREQUENCIES[-1], DEEPEST): 4}
+    return {**{Case(height, asymmetry, f, n): runs[n] for f in FREQUENCIES for n in disks}, **deepest}
 
 
 def negative_plan(quick: bool) -> Plan:
@@ -45,7 +48,7 @@ def positive_plan(quick: bool) -> Plan:
 
 def _curves(points: Points, height: float, asymmetry: float) -> dict[float, Curve]:
     def ours(case: Case) -> bool:
-        return (case.height, case.asymmetry) == (height, asymmetry) and case.disks in DISKS
+        return (case.height, case.asymmetry) == (height, asymmetry) and case.disks in (*DISKS, DEEPEST)
 
     return curves(points, lambda c: c.frequency, lambda c: c.layers, ours)
 

@@ -14,7 +14,7 @@ from typing import Annotated
 import typer
 
 from jostle_lab.ratchet import experiment, frequency, layers, shape, threshold
-from jostle_lab.ratchet.cases import Case, Point
+from jostle_lab.ratchet.cases import Case, Point, lean_on_each_other
 from jostle_lab.ratchet.fields import Flow, flow_of
 from jostle_lab.ratchet.flow import BACKWARDS, FORWARDS, FlowStudy
 from jostle_lab.ratchet.observe import by_sweep, chosen, read_points, write_points
@@ -46,8 +46,9 @@ every run, and `docs/ratchet-flow.csv`, what was read off the fields.
   `results/`, everything if nothing is there (about {cost} of one processor), and replaces the files.
 - `python -m jostle_lab figure F6` and so on make one figure: data, picture, statements. `figure F` makes all.
 - Velocities are in cm/s, positive to the right; errors are standard errors over seeds, which are 1 to the number of
-  runs. Parameters are those of F IV where it gives them: w = 6 mm, A = 2 mm, restitution 0.8, friction 0.1, radii 1.05
-  to 1.155 mm, equal masses, 30 or 50 s. Left open by F: radius of the tips (0.4 mm here), start (loose rows here),
+  runs; where these are two to four, the scatter of a run leans on that of similar points.
+- Parameters are those of F IV where it gives them: w = 6 mm, A = 2 mm, restitution 0.8, friction 0.1, radii 1.05 to
+  1.155 mm, equal masses, 30 or 50 s. Left open by F: radius of the tips (0.4 mm here), start (loose rows here),
   transient (1 s unobserved here). What these change is in the tables.
 - A verdict is `agrees`, `partly` (a part of the statement, or of the cases), `disagrees` or `open`. Signs count beyond
   three standard errors, numbers agree within two joint ones. A curve is monotone if chi^2 against the best monotone
@@ -109,7 +110,7 @@ Section = tuple[str, str, list[Statement], list[Table]]
 
 
 def _study(study: Study, points: dict[Case, Point]) -> Section:
-    ours = chosen(points, study.plan(False))
+    ours = lean_on_each_other(chosen(points, study.plan(False)))
     return study.number, study.title, study.statements(ours), study.tables(ours)
 
 

@@ -35,18 +35,23 @@ def asymmetry_plan(quick: bool) -> Plan:
     """F takes two runs."""
     chosen = ASYMMETRIES[::2] if quick else ASYMMETRIES
     heights = (3.0, 5.0, 9.0) if quick else HEIGHTS
-    return {tooth(h, a): 2 if quick else 3 for h in heights for a in chosen}
+    tips = {} if quick else {_with_tip(a, tip): 4 for a in STEEP for tip in (*TIPS, None)}
+    return {**tips, **{tooth(h, a): 2 if quick else 3 for h in heights for a in chosen}}
+
+
+def _by_height(points: Points) -> dict[float, Curve]:
+    return curves(points, lambda c: c.height, lambda c: c.asymmetry, lambda c: c.teeth == 24)
 
 
 def asymmetry_draw(points: Points) -> Figure:
     """One curve for each height."""
-    found = curves(points, lambda c: c.height, lambda c: c.asymmetry)
+    found = _by_height(points)
     return panel_of_curves(found, lambda h: f"h = {h:g} mm", "asymmetry a")
 
 
 def asymmetry_statements(points: Points) -> list[Statement]:
     """F IV A on Fig. 6."""
-    found = curves(points, lambda c: c.height, lambda c: c.asymmetry)
+    found = _by_height(points)
     symmetric = [(h, curve.at(0.5)) for h, curve in found.items()]
     low, middle, high = (found[h] for h in (3.0, 5.0, 9.0))
     lowest = middle.between(0.1, 0.4).extremum()
@@ -82,6 +87,27 @@ def _trend(place: str, printed: str, curve: Curve, sign: int, rising: bool) -> S
     p_value = curve.monotone(rising)
     found = f"{_by(curve)}; monotone with p = {p_value:.2g}"
     return Statement(place, printed, found, share([_one_sign(curve, sign), p_value > MONOTONE]))
+
+
+TIPS = (1e-4, 2e-4, 6e-4)
+"""[m]."""
+STEEP = (0.0, 0.05, 0.25)
+"""Asymmetries at which the table has other tips, h = 5 mm."""
+
+
+def _with_tip(asymmetry: float, tip: float | None) -> Case:
+    case = small(5.0, asymmetry)
+    return case if tip is None else case.with_changes(tooth__tip_radius=tip)
+
+
+def asymmetry_tables(points: Points) -> list[Table]:
+    """Tips, where the sign is not F's."""
+    tips = (*TIPS[:2], None, *TIPS[2:])
+    if not all(_with_tip(a, tip) in points for a in STEEP for tip in tips):
+        return []
+    rows = [[f"{1e3 * (tip or 4e-4):g} mm", *(str(points[_with_tip(a, tip)].estimate) for a in STEEP)] for tip in tips]
+    title = "Velocity [cm/s] at h = 5 mm by the radius of the tip, ten teeth, 30 s, four seeds"
+    return [Table(title, ["tip radius", *(f"a = {a:g}" for a in STEEP)], rows)]
 
 
 def height_plan(quick: bool) -> Plan:
@@ -168,7 +194,13 @@ def height_tables(points: Points) -> list[Table]:
 
 
 ASYMMETRY = Study(
-    "F6", "F Fig. 6: transport against asymmetry", asymmetry_plan, asymmetry_draw, asymmetry_statements, NOTES
+    "F6",
+    "F Fig. 6: transport against asymmetry",
+    asymmetry_plan,
+    asymmetry_draw,
+    asymmetry_statements,
+    NOTES,
+    asymmetry_tables,
 )
 HEIGHT = Study(
     "F7",

@@ -12,7 +12,7 @@ from scipy import stats
 from scipy.optimize import isotonic_regression
 
 from jostle_lab.figures import WIDTH
-from jostle_lab.ratchet.cases import Case, Plan, Point, Points
+from jostle_lab.ratchet.cases import Case, Plan, Point, Points, lean_on_each_other
 from jostle_lab.ratchet.observe import by_sweep
 from jostle_lab.thesis.product import Product, Statement, Verdict
 from jostle_lab.thesis.runs import Laboratory
@@ -54,7 +54,7 @@ class Study:
     def make(self, laboratory: Laboratory, quick: bool, seeds: int | None = None) -> Product:
         """Run what is missing; `seeds`, if given, for every point."""
         plan = {case: seeds or number for case, number in self.plan(quick).items()}
-        points = by_sweep(laboratory, plan, f"figure {self.number}")
+        points = lean_on_each_other(by_sweep(laboratory, plan, f"figure {self.number}"))
         tables = [table.markdown() for table in self.tables(points)]
         rows = [_row(case, point) for case, point in points.items()]
         return Product(self.title, rows, self.draw(points), self.statements(points), self.notes, tables)

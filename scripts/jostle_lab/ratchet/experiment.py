@@ -7,7 +7,7 @@ from jostle_lab.ratchet.onset import Onset, fit_onset
 from jostle_lab.ratchet.study import Curve, Study, Table, curves, listed, panel_of_curves
 from jostle_lab.thesis.product import Statement, Verdict, verdict
 
-GAMMAS = (1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 3.0, 3.5, 4.0)
+GAMMAS = (1.6, 1.8, 2.0, 2.2, 2.5, 3.0, 3.5, 4.0)
 BALLS = {"tooth.width": 12e-3, "disk.radius_min": 1.617e-3, "disk.radius_max": 1.683e-3, "disk.inertia_factor": 0.4}
 """w = 12 mm, balls of 3.3 mm +- 2 %, inertia of a ball."""
 DISKS = 148

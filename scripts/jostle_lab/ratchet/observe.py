@@ -73,10 +73,11 @@ def read_points(path: Path) -> dict[Case, Point]:
 
 
 def chosen(points: Mapping[Case, Point], plan: Plan) -> dict[Case, Point]:
-    """The points of a plan, with as many runs as it says; raises LabError if they are not all there."""
-    missing = [case for case, seeds in plan.items() if case not in points or points[case].runs < seeds]
+    """The points of a plan, with at most as many runs as it says; raises LabError if one is not there."""
+    missing = [case for case in plan if case not in points]
     if missing:
         raise LabError(
-            f"{len(missing)} points are not kept, first {missing[0]}. Compute them: python -m jostle_lab ratchet-page"
+            f"{len(missing)} points are not kept, first {missing[0]}. "
+            "Compute them: python -m jostle_lab ratchet-page --compute"
         )
     return {case: Point(points[case].velocities[:seeds]) for case, seeds in plan.items()}

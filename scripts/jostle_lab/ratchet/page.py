@@ -8,13 +8,14 @@ The page is a function of the two files: a test makes it anew and compares.
 
 import csv
 from collections import Counter
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from jostle_lab.ratchet import experiment, frequency, layers, shape, threshold
-from jostle_lab.ratchet.cases import Case, Point, lean_on_each_other
+from jostle_lab.ratchet.cases import Case, Plan, Point, Points, lean_on_each_other
 from jostle_lab.ratchet.fields import Flow, flow_of
 from jostle_lab.ratchet.flow import BACKWARDS, FORWARDS, FlowStudy
 from jostle_lab.ratchet.observe import by_sweep, chosen, read_points, write_points
@@ -44,7 +45,7 @@ every run, and `docs/ratchet-flow.csv`, what was read off the fields.
 
 - `python -m jostle_lab ratchet-page` makes it anew from these files; with `--compute` it first runs what is missing in
   `results/`, everything if nothing is there (about {cost} of one processor), and replaces the files.
-- `python -m jostle_lab figure F6` and so on make one figure: data, picture, statements. `figure F` makes all.
+- `python -m jostle_lab figure F6` and so on, the commands in the tables, make one figure: data, picture, statements.
 - Velocities are in cm/s, positive to the right; errors are standard errors over seeds, which are 1 to the number of
   runs; where these are two to four, the scatter of a run leans on that of similar points.
 - Parameters are those of F IV where it gives them: w = 6 mm, A = 2 mm, restitution 0.8, friction 0.1, radii 1.05 to
@@ -86,37 +87,63 @@ def read_flow(path: Path) -> dict[str, Flow]:
 def page(points: dict[Case, Point], flows: dict[str, Flow]) -> str:
     """The whole page."""
     sections = [_study(study, points) for study in STUDIES] + [_flow(study, points, flows) for study in FLOWS]
-    sections.sort(key=lambda section: int(section[0].removeprefix("F")))
-    statements = [s for _, _, found, _ in sections for s in found]
+    sections.sort(key=lambda section: int(section.number.removeprefix("F")))
+    statements = [s for section in sections for s in section.statements]
     counts = Counter(s.verdict for s in statements)
     total = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
     disks_seconds = sum(c.disks * (c.seconds + c.warm_up) * p.runs for c, p in points.items())
     cost = f"{disks_seconds / DISK_SECONDS / 60.0:.0f} min"
     runs = sum(p.runs for p in points.values())
     lines = [HEAD.format(cost=cost), f"{len(statements)} statements: {total}. {runs} runs of {len(points)} cases."]
-    for number, title, found, tables in sections:
-        lines += ["", f"## {title}", f"`python -m jostle_lab figure {number}`", ""]
-        lines += ["| where | F | ours | |", "|:--|:--|:--|:--|"]
-        lines += [f"| {s.place} | {cell(s.printed)} | {cell(s.found)} | {s.verdict} |" for s in found]
-        for table in tables:
+    for section in sections:
+        lines += ["", f"## {section.title}", section.runs, ""]
+        lines += ["| where | F | ours | | command |", "|:--|:--|:--|:--|:--|"]
+        lines += [_line(section.number, s) for s in section.statements]
+        for table in section.tables:
             lines += ["", table.markdown()]
     return "\n".join(lines) + "\n"
+
+
+def _line(number: str, s: Statement) -> str:
+    return f"| {s.place} | {cell(s.printed)} | {cell(s.found)} | {s.verdict} | `figure {number}` |"
 
 
 DISK_SECONDS = 6000.0
 """Disks times simulated seconds that a processor does in a second, roughly."""
 
-Section = tuple[str, str, list[Statement], list[Table]]
+
+@dataclass(frozen=True)
+class Section:
+    """What the page says of a figure."""
+
+    number: str
+    title: str
+    runs: str
+    """How many there are."""
+    statements: list[Statement]
+    tables: list[Table]
+
+
+def _runs(points: Points, plan: Plan) -> str:
+    """How many runs there are, and what is left of the plan."""
+    counts = [point.runs for point in points.values()]
+    left = sum(plan.values()) - sum(counts)
+    text = f"{sum(counts)} runs of {len(counts)} cases, {min(counts)} to {max(counts)} each"
+    return text + (f"; {left} more are planned, which `ratchet-page --compute` adds." if left else ".")
 
 
 def _study(study: Study, points: dict[Case, Point]) -> Section:
-    ours = lean_on_each_other(chosen(points, study.plan(False)))
-    return study.number, study.title, study.statements(ours), study.tables(ours)
+    plan = study.plan(False)
+    ours = lean_on_each_other(chosen(points, plan))
+    runs = " ".join([*(f"{note}." for note in study.notes), _runs(ours, plan)])
+    return Section(study.number, study.title, runs, study.statements(ours), study.tables(ours))
 
 
 def _flow(study: FlowStudy, points: dict[Case, Point], flows: dict[str, Flow]) -> Section:
-    ours = chosen(points, study.plan(False))
-    return study.number, study.title, study.statements(ours, flows[study.number]), study.tables(ours)
+    plan = study.plan(False)
+    ours = chosen(points, plan)
+    statements = study.statements(ours, flows[study.number])
+    return Section(study.number, study.title, _runs(ours, plan), statements, study.tables(ours))
 
 
 def compute(laboratory: Laboratory, docs: Path) -> None:

@@ -115,6 +115,9 @@ def draw(points: Points) -> Figure:
     log.set(
         xscale="log", yscale="log", xlabel=r"$(\Gamma - \Gamma_c)/\Gamma_c$", ylabel=r"$\langle v_x \rangle$ [cm/s]"
     )
+    ticks = [t for t in (0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0) if t < 1.1 * max(e.mean for _, e in above)]
+    log.set_yticks(ticks, [f"{t:g}" for t in ticks])
+    log.minorticks_off()
     return figure
 
 

@@ -3,7 +3,7 @@
 
 mod support;
 
-use jostle::collision::Smooth;
+use jostle::collision::{Coulomb, Smooth, VelocityFloor};
 use jostle::drive::{Drive, Sine};
 use jostle::engine::event_driven::{EventDriven, Gravity, Moving, PeriodicAcross, Sawtooth, Settings};
 use jostle::geometry::{Disk, SawtoothProfile};
@@ -271,6 +271,65 @@ fn elastic_smooth_disks_keep_energy_and_momentum() {
     }
 }
 
+/// Disks seen in a mirror do what mirrored disks do, until rounding is heard: the images of some hundred impacts.
+#[test]
+fn mirrored_teeth_give_mirrored_motion() {
+    let drive = Sine {
+        amplitude: 2e-3,
+        frequency: 25.0,
+        phase: 0.3,
+    };
+    let space = PeriodicAcross {
+        width: 60e-3,
+        bottom: 0.0,
+        height: 60e-3,
+    };
+    let [mut plain, mut mirrored] = [false, true].map(|mirror| {
+        let asymmetry = if mirror { 0.8 } else { 0.2 };
+        let profile = SawtoothProfile::new(6e-3, 6e-3, asymmetry, 4e-4).unwrap();
+        let boundary = Sawtooth::new(profile, Moving { drive, farthest: 2e-3 }, 0.6, 0.0);
+        let disks: Vec<Disk> = (0..12)
+            .map(|index| {
+                let x = 5e-3 * (f64::from(index) + 0.4);
+                Disk {
+                    x: if mirror { 60e-3 - x } else { x },
+                    y: 12e-3,
+                    radius: 1e-3 + 1e-5 * f64::from(index),
+                }
+            })
+            .collect();
+        let sign = if mirror { -1.0 } else { 1.0 };
+        let velocities: Vec<[f64; 3]> = (0..12)
+            .map(|index| [sign * 0.2 * f64::from(index).sin(), 0.1, sign * 30.0])
+            .collect();
+        let law = VelocityFloor::new(Coulomb::new(0.8, 0.1).unwrap(), 5e-3).unwrap();
+        let types = (law, boundary, Gravity(9.81), space);
+        EventDriven::new(types, &disks, &[1e-5; 12], &velocities, Settings::default())
+    });
+    let time = 0.25;
+    plain.advance_to(time).unwrap();
+    mirrored.advance_to(time).unwrap();
+    let (one, two) = (plain.state().counts, mirrored.state().counts);
+    assert!(one.disk_impacts > 20 && one.wall_impacts > 80, "{one:?}");
+    assert!((one.disk_impacts, one.wall_impacts) == (two.disk_impacts, two.wall_impacts));
+    let mut off: f64 = 0.0;
+    for disk in 0..12 {
+        let (place, velocity, angle, _) = plain.seen(disk, time);
+        let (image, image_velocity, image_angle, _) = mirrored.seen(disk, time);
+        off = off
+            .max((place[0] + image[0] - 60e-3).abs())
+            .max((place[1] - image[1]).abs());
+        off = off
+            .max((velocity[0] + image_velocity[0]).abs())
+            .max(1e-3 * (angle + image_angle).abs());
+    }
+    println!(
+        "{} and {} impacts, images off by {off:.1e}",
+        one.disk_impacts, one.wall_impacts
+    );
+    assert!(off < 1e-6, "{off:e}");
+}
+
 /// Work of the base less losses is the change of energy, and the mean force on the base is the weight.
 #[test]
 fn energy_and_momentum_balance_to_rounding() {
@@ -398,6 +457,7 @@ fn impossible_ratchets_are_refused_by_name() {
     );
     assert!(told(&[("disk.radius_min", 2e-3)]).starts_with("disk.radius_min"));
     assert!(told(&[("disk.radius_max", 9e-3)]).starts_with("tooth.count"));
+    assert!(told(&[("tooth.width", 2e-6), ("tooth.tip_radius", 0.0)]).starts_with("tooth.width"));
     assert!(told(&[("cell.height", 8e-3)]).starts_with("cell.height"));
     assert!(told(&[("drive.amplitude", 0.7)]).starts_with("cell.height"));
     let mut values = values_of::<RatchetOnInput>(DEFAULT, &[]);
@@ -409,4 +469,8 @@ fn impossible_ratchets_are_refused_by_name() {
         error.contains("below the ceiling") && ratchet.state() == before,
         "{error}"
     );
+    values.set_by_name("base.displacement", Value::Real(0.0)).unwrap();
+    values.set_by_name("base.velocity", Value::Real(-1e300)).unwrap();
+    let error = ratchet.advance_to(0.1, &values).unwrap_err().to_string();
+    assert!(error.contains("accelerate") && ratchet.state() == before, "{error}");
 }

@@ -107,6 +107,24 @@ fn averages_are_the_same_bits_however_one_steps() {
     assert!(whole == cut && whole.1.iter().all(|number| *number != 0.0));
 }
 
+/// A state saved before the first step, or at the mark, is taken back.
+#[test]
+fn states_at_the_mark_are_taken_back() {
+    for start in [0.0, 0.3, 1e9] {
+        let values = values_of::<RatchetOnSine>(CHOICE, &[("measure.start", start)]);
+        let mut ratchet = RatchetOnSine::new(CHOICE, 0.0, &values).unwrap();
+        for end in [0.3, 0.7] {
+            let saved = ratchet.state();
+            ratchet.advance_to(end, &values).unwrap();
+            let ahead = ratchet.state();
+            ratchet.restore(&saved).unwrap();
+            assert!(ratchet.state() == saved);
+            ratchet.advance_to(end, &values).unwrap();
+            assert!(ratchet.state() == ahead);
+        }
+    }
+}
+
 /// A state whose averages were tampered with is refused, and nothing changes.
 #[test]
 fn damaged_averages_are_refused() {

@@ -90,14 +90,12 @@ impl Transport {
 
     /// Whether this can be the average of a run of `count` disks at `time` \[s\]: what is read back may be anything.
     pub fn is_sound(&self, count: usize, time: f64) -> bool {
-        let begun = self.places.len() == count && self.mark <= time;
-        let waits = self.places.is_empty() && self.mark > time;
+        let begun = self.places.len() == count && self.mark <= time && self.batches.due() > time;
+        // At the mark itself the places are taken by the step that begins there.
+        let waits = self.places.is_empty() && self.mark >= time;
         let numbers = self.places.iter().copied().chain([self.mark, self.work]);
         let same_start = BatchMeans::new(self.mark, Self::FIRST_BATCH);
-        (begun || waits)
-            && are_sane(numbers)
-            && self.batches.continues(&same_start, Self::FIRST_BATCH)
-            && self.batches.due() > time
+        (begun || waits) && are_sane(numbers) && self.batches.continues(&same_start, Self::FIRST_BATCH)
     }
 
     fn mean_displacement(&self, places: impl Iterator<Item = f64>) -> f64 {
@@ -115,7 +113,7 @@ mod tests {
     fn means_and_spread_of_even_motion_are_exact() {
         let places = |time: f64| [1.0, 2.0, 6.0].map(|velocity| 0.25 + velocity * time).into_iter();
         let mut transport = Transport::new(2.0);
-        assert!(transport.is_sound(3, 1.0));
+        assert!(transport.is_sound(3, 1.0) && transport.is_sound(3, 2.0) && !transport.is_sound(3, 2.5));
         assert_eq!(transport.told(1.0, places(1.0), 5.0), Told::default());
         while transport.due() <= 12.0 {
             let due = transport.due();

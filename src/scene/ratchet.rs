@@ -33,8 +33,9 @@ pub type RatchetEngine<D> = EventDriven<VelocityFloor<Coulomb>, Sawtooth<D>, Gra
 
 const NAME: &str = "ratchet";
 
-/// Radius of a shell over that of its disk.
-const SHELL: f64 = 2.0;
+/// Greatest acceleration \[m/s2\] of the base, beyond which searches for first hits take ever smaller steps. The sine of the
+/// greatest amplitude and frequency has 4e13.
+const MOST_ACCELERATION: f64 = 1e14;
 
 /// Disks above this many rows over the base belong to the topmost cells.
 const REGION_ROWS: f64 = 12.0;
@@ -107,6 +108,15 @@ where
             self.go_back(&backup);
             return Err(error);
         }
+        if !self.is_sane(end_time) {
+            self.go_back(&backup);
+            return Err(Error::Step {
+                scene: NAME,
+                time: end_time,
+                what: "a disk or the base is beyond 1e100 or no longer finite".into(),
+                remedy: "Check the base's amplitude and the inputs.".into(),
+            });
+        }
         let given = self.engine.state().counts.base_impulse - impulse;
         self.report.time = end_time;
         self.report.reaction_force = -given / (end_time - from);
@@ -118,8 +128,9 @@ where
         let from = self.report.time;
         let mut base = self.engine.state().boundary.base().clone();
         if base.aim(from, end_time - from, values) {
-            if base.farthest >= self.headroom {
-                return Err(crushed(from, base.farthest, self.headroom));
+            let acceleration = base.drive.greatest_acceleration();
+            if !(acceleration <= MOST_ACCELERATION && base.farthest < self.headroom) {
+                return Err(impossible(from, acceleration, base.farthest, self.headroom));
             }
             let change = |boundary: &mut Sawtooth<D>| boundary.set_base(base);
             self.engine.change_boundary_observed(from, change, observer);
@@ -137,6 +148,19 @@ where
             self.averages.transport.record(places, work);
         }
         self.engine.advance_observed(end_time, observer).map_err(refusal)
+    }
+
+    /// Whether everything at `time` \[s\] is finite and far from overflow.
+    fn is_sane(&self, time: f64) -> bool {
+        let state = self.engine.state();
+        let (counts, base) = (&state.counts, state.boundary.base().motion(time));
+        let disks_hold = (0..self.masses.len()).all(|disk| {
+            let (place, velocity, angle, angular_velocity) = self.engine.seen(disk, time);
+            are_sane(place) && are_sane(velocity) && are_sane([angle, angular_velocity])
+        });
+        disks_hold
+            && are_sane([counts.energy_lost, counts.energy_input, counts.base_impulse])
+            && are_sane([base.displacement, base.velocity, base.acceleration])
     }
 
     fn saved(&self) -> RatchetState<Sawtooth<D>> {
@@ -173,12 +197,25 @@ fn refusal(stop: NoHeadway) -> Error {
     }
 }
 
-fn crushed(time: f64, farthest: f64, headroom: f64) -> Error {
+fn impossible(time: f64, acceleration: f64, farthest: f64, headroom: f64) -> Error {
+    let (what, remedy) = if farthest < headroom {
+        (
+            format!(
+                "the inputs accelerate the base by {acceleration:e} m/s2, and {MOST_ACCELERATION:e} m/s2 is the most"
+            ),
+            "Let base.displacement and base.velocity fit each other and the communication step.",
+        )
+    } else {
+        (
+            format!("the inputs move the base up by {farthest} m, and {headroom} m are left below the ceiling"),
+            "Keep base.displacement smaller or raise cell.height.",
+        )
+    };
     Error::Step {
         scene: NAME,
         time,
-        what: format!("the inputs move the base up by {farthest} m, and {headroom} m are left below the ceiling"),
-        remedy: "Keep base.displacement smaller or raise cell.height.".into(),
+        what,
+        remedy: remedy.into(),
     }
 }
 
@@ -247,7 +284,7 @@ where
         let gravity = values.real("gravity");
         let inertia_factor = values.real("disk.inertia_factor");
         let settings = Settings {
-            shell: SHELL,
+            shell: start::shell(disks.len(), values),
             start_time,
             inertia_factor,
         };
@@ -318,13 +355,16 @@ where
         let averages = &state.averages;
         let averages_hold = averages.transport.is_sound(self.masses.len(), state.report.time);
         let report_holds = state.report.is_sane() && are_sane([averages.mark]);
+        let remedy = "Restore states of the same scene, disk count and parameters only.";
         if !(averages_hold && report_holds && self.engine.fits(&state.engine)) {
-            return Err(Error::state(
-                "it is not a state of this run",
-                "Restore states of the same scene, disk count and parameters only.",
-            ));
+            return Err(Error::state("it is not a state of this run", remedy));
         }
+        let former = self.saved();
         self.go_back(state);
+        if !self.is_sane(state.report.time) {
+            self.go_back(&former);
+            return Err(Error::state("it holds numbers that no ratchet has", remedy));
+        }
         Ok(())
     }
 }

@@ -23,7 +23,7 @@ PHASES = 6
 BOX = TOOTH / 6.0
 """Side of a box [mm]."""
 INK = "#1f3f78"
-ARROW = 0.12
+ARROW = 0.25
 """Length of an arrow [mm] for each disk that moves at 1 cm/s: the same in both figures, as in F."""
 SHOWN_TEETH = 3
 SHOWN_HEIGHT = 16.0

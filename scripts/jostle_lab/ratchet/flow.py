@@ -11,6 +11,7 @@ from jostle_lab.ratchet.observe import by_sweep
 from jostle_lab.ratchet.study import Table
 from jostle_lab.thesis.product import Product, Statement, verdict
 from jostle_lab.thesis.runs import Laboratory
+from jostle_lab.thesis.statistics import Estimate
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,7 @@ class FlowStudy:
     def _mechanism(self, flow: Flow) -> list[Statement]:
         place = quoted.PLACES[self.case]
         across, down = flow.sliding
+        sinking = Estimate(-down.mean, down.error)
         left = f"{flow.to_the_left} of the mass thrown up near the teeth is in boxes that move to the left"
         if self.negative:
             return [
@@ -73,7 +75,7 @@ class FlowStudy:
             Statement(
                 f"V, {place}",
                 "particles slide down the side with the smaller slope",
-                f"just above that side in window 4, against the base: {across} cm/s to the right, {down} cm/s up",
+                f"just above that side in window 4, against the base: {across} cm/s to the right, {sinking} cm/s down",
                 verdict(across.mean > 3.0 * across.error and down.mean < -3.0 * down.error),
             ),
             Statement(

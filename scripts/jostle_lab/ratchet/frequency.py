@@ -121,7 +121,7 @@ def _linear(rise: Curve) -> Statement:
     errors = np.array([max(e.error, 1e-3) for e in rise.estimates])
     printed = "above the critical frequency the velocity becomes positive, linearly"
     if len(x) < 3:
-        return Statement("IV D, Fig. 12", printed, f"only {len(x)} points on the rising side", verdict(False))
+        return Statement("IV D, Fig. 12", printed, f"only {len(x)} points on the rising side", Verdict.OPEN)
     (slope, offset), covariance = np.polyfit(x, y, 1, w=1.0 / errors, cov="unscaled")
     critical = -offset / slope
     gradient = np.array([offset / slope**2, -1.0 / slope])

@@ -12,6 +12,9 @@ use jostle::drive::{FollowsInput, Sine};
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
+use jostle::scene::three_disk::{
+    ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
+};
 use jostle::scene::wedge::{WedgeEventDriven, WedgeMap, WedgeMolecularDynamics};
 use jostle::scene::{Causality, Choice, Kind, Scene, Table, Value, Values};
 use rand::{Rng, RngExt, SeedableRng};
@@ -215,6 +218,12 @@ fn extremes<S: Scene>(seed: u64) -> Result<String, String> {
                 values.set_by_name(name, input.into()).expect("finite");
             }
         }
+        for name in ["torque", "torque.rate"] {
+            if let Some(kept) = real(&values, name) {
+                let input = pick(&mut generator, &[kept, kept, kept, 0.0, 0.15, -1.0, 1e3, -1e300]);
+                values.set_by_name(name, input.into()).expect("finite");
+            }
+        }
         let end = time + affordable(&values, &mut generator, duration);
         if end <= time {
             continue;
@@ -254,7 +263,7 @@ fn extremes<S: Scene>(seed: u64) -> Result<String, String> {
                 if postcard::to_allocvec(&scene.state()).ok() != Some(bytes) {
                     return fail(format!("the refusal '{error}' changed the state"), time);
                 }
-                for name in ["base.displacement", "base.velocity"] {
+                for name in ["base.displacement", "base.velocity", "torque", "torque.rate"] {
                     let _ = values.set_by_name(name, 0.0.into());
                 }
             }
@@ -362,4 +371,8 @@ scenes! {
     wedge_molecular_dynamics_on_input: WedgeMolecularDynamics<FollowsInput>, 12, 60;
     ratchet_on_sine: RatchetOnSine, 12, 60;
     ratchet_on_input: RatchetOnInput, 12, 60;
+    three_disk_on_input: ThreeDiskOnInput, 12, 40;
+    three_disk_on_harmonic_torque: ThreeDiskOnHarmonicTorque, 12, 40;
+    three_disk_on_random_supports: ThreeDiskOnRandomSupports, 12, 40;
+    three_disk_on_sine: ThreeDiskOnSine, 12, 40;
 }

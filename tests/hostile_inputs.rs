@@ -18,33 +18,41 @@ const CASES: [&str; 4] = [
     "amplitude times 1000",
     "step times 1000",
 ];
+/// \[m\].
 const AMPLITUDE: f64 = 1e-4;
+/// \[N.m\].
+const TORQUE: f64 = 1e-3;
 const FREQUENCY: f64 = 80.0;
 const STEP: f64 = 1e-3;
 
-fn simulation(card: &Card, amplitude: f64) -> Result<AnySimulation, Error> {
+/// The scene, driven `factor` times as hard as usual where a parameter says how hard.
+fn simulation(card: &Card, factor: f64) -> Result<AnySimulation, Error> {
     let selection = Selection {
         scene: card.scene,
         engine: Some(card.engine),
         drive: Some(card.drive),
         disks: Some(20.min(*card.disks.end())),
     };
-    let (amplitude, frequency) = (amplitude.to_string(), FREQUENCY.to_string());
-    match card.drive {
-        "sine" => AnySimulation::new(
-            selection,
-            &[("drive.amplitude", &amplitude), ("drive.frequency", &frequency)],
-        ),
-        _ => AnySimulation::new(selection, &[]),
-    }
+    let usual = AnySimulation::new(selection, &[])?;
+    let amplitudes = ["drive.amplitude", "torque.amplitude", "support.amplitude"];
+    let Some(name) = amplitudes.into_iter().find(|name| usual.position(name).is_ok()) else {
+        return Ok(usual);
+    };
+    let on_base = usual.position("base.position").is_ok();
+    let amplitude = if on_base { AMPLITUDE } else { usual.real(name)? };
+    let (amplitude, frequency) = ((factor * amplitude).to_string(), FREQUENCY.to_string());
+    let given = [(name, amplitude.as_str()), ("drive.frequency", frequency.as_str())];
+    AnySimulation::new(selection, if on_base { &given } else { &given[..1] })
 }
 
-/// Base of y = A (1 - cos(omega t)), given as inputs.
-fn aim(simulation: &mut AnySimulation, amplitude: f64) {
-    let phase = TAU * FREQUENCY * simulation.time();
+/// Base of y = A (1 - cos(omega t)), or a torque of B sin(omega t), given as inputs.
+fn aim(simulation: &mut AnySimulation, factor: f64) {
+    let (omega, phase) = (TAU * FREQUENCY, TAU * FREQUENCY * simulation.time());
     let inputs = [
-        ("base.displacement", amplitude * (1.0 - phase.cos())),
-        ("base.velocity", amplitude * TAU * FREQUENCY * phase.sin()),
+        ("base.displacement", factor * AMPLITUDE * (1.0 - phase.cos())),
+        ("base.velocity", factor * AMPLITUDE * omega * phase.sin()),
+        ("torque", factor * TORQUE * phase.sin()),
+        ("torque.rate", factor * TORQUE * omega * phase.cos()),
     ];
     for (name, value) in inputs {
         if simulation.position(name).is_ok() {
@@ -64,9 +72,9 @@ fn step(simulation: &mut AnySimulation, duration: f64) -> Result<(), Error> {
     outcome
 }
 
-fn walk(simulation: &mut AnySimulation, steps: u32, amplitude: f64) -> Result<(), Error> {
+fn walk(simulation: &mut AnySimulation, steps: u32, factor: f64) -> Result<(), Error> {
     for _ in 0..steps {
-        aim(simulation, amplitude);
+        aim(simulation, factor);
         step(simulation, STEP)?;
     }
     Ok(())
@@ -106,32 +114,35 @@ fn check(simulation: &AnySimulation, what: &str) {
 /// One hostile step, or more of a hostile motion, after 0.1 s of a usual one.
 fn answer(card: &Card, case: &str) -> &'static str {
     let what = format!("{} {} {}, {case}", card.scene, card.engine, card.drive);
-    let times_1000 = card.drive == "sine" && case == "amplitude times 1000";
-    let mut simulation = match simulation(card, if times_1000 { 1000.0 * AMPLITUDE } else { AMPLITUDE }) {
+    let times_1000 = card.drive != "input" && case == "amplitude times 1000";
+    let mut simulation = match simulation(card, if times_1000 { 1000.0 } else { 1.0 }) {
         Ok(simulation) => simulation,
         Err(error) => {
-            assert!(error.to_string().contains("drive.amplitude"), "{what}: {error}");
+            assert!(error.to_string().contains(".amplitude"), "{what}: {error}");
             return "refused at the start";
         }
     };
     if !times_1000 {
-        walk(&mut simulation, 100, AMPLITUDE).unwrap_or_else(|error| panic!("{what}: {error}"));
+        walk(&mut simulation, 100, 1.0).unwrap_or_else(|error| panic!("{what}: {error}"));
     }
-    aim(&mut simulation, AMPLITUDE);
+    aim(&mut simulation, 1.0);
     let (sane, time) = (simulation.to_bytes().unwrap(), simulation.time());
     let outcome = match case {
         "jump of the base" => {
-            simulation.set("base.displacement", 0.05).unwrap();
+            let on_base = simulation.set("base.displacement", 0.05).is_ok();
+            assert!(on_base || simulation.set("torque", 1000.0 * TORQUE).is_ok(), "{what}");
             step(&mut simulation, STEP)
         }
         "not a number" => {
-            assert!(simulation.set("base.velocity", f64::NAN).is_err(), "{what}");
+            for name in ["base.velocity", "torque"] {
+                assert!(simulation.set(name, f64::NAN).is_err(), "{what}");
+            }
             assert_eq!(simulation.to_bytes().unwrap(), sane, "{what}");
-            walk(&mut simulation, 10, AMPLITUDE).unwrap();
+            walk(&mut simulation, 10, 1.0).unwrap();
             check(&simulation, &what);
             return "input refused";
         }
-        "amplitude times 1000" => walk(&mut simulation, 100, 1000.0 * AMPLITUDE),
+        "amplitude times 1000" => walk(&mut simulation, 100, 1000.0),
         _ => step(&mut simulation, 1000.0 * STEP),
     };
     if outcome.is_ok() {
@@ -140,7 +151,7 @@ fn answer(card: &Card, case: &str) -> &'static str {
     }
     // The caller may retry with a sane motion, if it may change the motion at all.
     if simulation.time() == time && !times_1000 {
-        walk(&mut simulation, 1, AMPLITUDE).unwrap_or_else(|error| panic!("{what}, retried: {error}"));
+        walk(&mut simulation, 1, 1.0).unwrap_or_else(|error| panic!("{what}, retried: {error}"));
     }
     "step refused"
 }
@@ -149,8 +160,8 @@ fn answer(card: &Card, case: &str) -> &'static str {
 #[test]
 fn the_work_of_a_step_is_bounded() {
     for card in cards() {
-        let mut limited = simulation(&card, AMPLITUDE).unwrap();
-        let mut free = simulation(&card, AMPLITUDE).unwrap();
+        let mut limited = simulation(&card, 1.0).unwrap();
+        let mut free = simulation(&card, 1.0).unwrap();
         limited.limit_work(20);
         let before = limited.to_bytes().unwrap();
         let refusal = limited.advance_to(1.0).unwrap_err().to_string();

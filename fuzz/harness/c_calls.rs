@@ -206,11 +206,8 @@ fn create(caller: &mut Caller) {
         match SCENES.get(scene) {
             Some(names) => {
                 let [scene, engine, drive] = names.map(CStr::as_ptr);
-                let disks = if scene == c"wedge".as_ptr() {
-                    0
-                } else {
-                    1 + caller.hand.below(4) as u32
-                };
+                let one = names[0] == c"wedge" || names[0] == c"three_disk";
+                let disks = if one { 0 } else { 1 + caller.hand.below(4) as u32 };
                 jostle_new(
                     scene,
                     engine,

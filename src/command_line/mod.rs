@@ -10,6 +10,7 @@ mod run;
 #[cfg(test)]
 mod test_scene;
 mod text;
+mod theory;
 
 use std::fmt;
 use std::io;
@@ -34,6 +35,7 @@ enum Command {
     Fields(fields::Fields),
     Fmu(fmu::Fmu),
     Run(run::Run),
+    Theory(theory::Theory),
 }
 
 /// Which scene, as what component: shared by all commands.
@@ -121,6 +123,7 @@ pub fn main() -> ExitCode {
         Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
         Command::Run(run) => run.execute(),
+        Command::Theory(theory) => theory.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

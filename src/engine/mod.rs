@@ -2,6 +2,7 @@
 
 pub mod event_driven;
 pub mod molecular_dynamics;
+pub mod three_disk;
 pub mod wedge;
 pub mod work;
 

@@ -5,6 +5,7 @@
 use super::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use super::packing::{PackingOnInput, PackingOnSine};
 use super::ratchet::{RatchetOnInput, RatchetOnSine};
+use super::three_disk::{ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine};
 use super::wedge::{
     WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
     WedgeMolecularDynamicsOnSine,
@@ -58,6 +59,10 @@ scenes![
     WedgeMolecularDynamicsOnSine,
     RatchetOnInput,
     RatchetOnSine,
+    ThreeDiskOnInput,
+    ThreeDiskOnHarmonicTorque,
+    ThreeDiskOnRandomSupports,
+    ThreeDiskOnSine,
 ];
 
 /// Position of the card with this scene, engine and drive.

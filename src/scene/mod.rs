@@ -12,6 +12,7 @@ pub mod ratchet;
 #[cfg(feature = "toml")]
 mod recipe;
 mod simulation;
+pub mod three_disk;
 pub mod values;
 pub mod variables;
 pub mod wedge;
@@ -59,6 +60,15 @@ pub struct Card {
     pub step_size: f64,
 }
 
+/// Where a step ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reached {
+    /// Time \[s\]; before the end of the step only if there was an event.
+    pub time: f64,
+    /// An event happened at that time.
+    pub event: bool,
+}
+
 /// A scene of disks that can be stepped, looked at, saved and restored.
 ///
 /// Contract: the parameters are frozen in [`Scene::new`]. [`Scene::advance_to`] either reaches `end_time` or leaves the
@@ -67,6 +77,9 @@ pub struct Card {
 pub trait Scene: Sized + Send + 'static {
     /// Everything that changes with time, the report of the last step included.
     type State: Clone + PartialEq + Serialize + DeserializeOwned + Send;
+
+    /// Has events that an importer may want to stop at: [`Scene::advance_to_event`] finds them.
+    const EVENTS: bool = false;
 
     /// Static facts.
     fn card() -> Card;
@@ -85,6 +98,20 @@ pub trait Scene: Sized + Send + 'static {
     /// # Errors
     /// The step cannot be done; the state is as before the call.
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()>;
+
+    /// Advances to the next event, if there is one after the present time and not after `end_time` \[s\], else to
+    /// `end_time`, where it is just as after [`Scene::advance_to`]. The event itself is done: going on from there in any
+    /// way gives the bits of one step to the same end. Only called where [`Scene::EVENTS`] says so.
+    ///
+    /// # Errors
+    /// As [`Scene::advance_to`].
+    fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        self.advance_to(end_time, values)?;
+        Ok(Reached {
+            time: end_time,
+            event: false,
+        })
+    }
 
     /// Lets one call of [`Scene::advance_to`] do no more than so much, instead of [`crate::engine::MOST_WORK_IN_A_CALL`].
     /// It holds for this value of the scene, and is no part of its state. A scene whose calls take the same time whatever

@@ -12,7 +12,7 @@ use jostle::fmi::abi::fmi2::CallbackFunctions;
 use jostle::fmi::token;
 use jostle::scene::{Choice, Scene};
 
-use super::hand::{Draw, Hand, count, report_defects};
+use super::hand::{Hand, count, report_defects};
 
 /// An instance as its importer sees it: given to the library as the environment of its callbacks.
 pub struct Slot {

@@ -9,7 +9,12 @@ from jostle_lab.binaries import OLDEST_GLIBC, SYSTEM, needs, scenes, strangers
 
 RELEASE = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release"
 LIBRARIES = sorted(RELEASE.glob("libjostle_*.so"))
-WORDS = {"packing": b"box.width", "ratchet": b"tooth.width", "wedge": b"wedge.aperture", "three_disk": b"skin.departure"}
+WORDS = {
+    "packing": b"box.width",
+    "ratchet": b"tooth.width",
+    "wedge": b"wedge.aperture",
+    "three_disk": b"skin.departure",
+}
 SHIPPED = sorted((ROOT / "build" / "release").glob("libjostle_*.so"))
 
 

@@ -109,7 +109,8 @@ int main(void) {{
 """
     (ROOT / "build" / "toml.c").write_text(program)
     library = RELEASE.parent / "libjostle_c.a"
-    run(*"cc -std=c11 -Wall -Wextra -Werror -I include build/toml.c -o build/toml".split(), str(library), "-lm")
+    warnings = ["-Wall", "-Wextra", "-Werror"]
+    run("cc", "-std=c11", *warnings, "-I", "include", "build/toml.c", "-o", "build/toml", str(library), "-lm")
     assert abs(float(run("build/toml"))) > 0.0
 
 

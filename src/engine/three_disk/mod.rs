@@ -139,6 +139,10 @@ impl<E: Excitation> ThreeDisk<E> {
     /// # Errors
     /// Events follow each other without end. The state is then of no use.
     pub fn advance(&mut self, end_time: f64, stop: bool) -> Result<bool, Stuck> {
+        // Stopped there by an event, it has it behind it; a look would have to decide anew, to rounding.
+        if end_time == self.state.time {
+            return Ok(false);
+        }
         loop {
             let cell_start = self.cell_start(0);
             let next_start = self.cell_start(1);

@@ -16,9 +16,12 @@ from jostle_lab.figures import draw_all
 from jostle_lab.fmu_grains import FmuFactory, fingerprint
 from jostle_lab.loudspeaker import Loudspeaker
 from jostle_lab.peers import compare
+from jostle_lab.ratchet.command import ratchet_demo
+from jostle_lab.ratchet.page import ratchet_page
 from jostle_lab.report import write_report
 from jostle_lab.results import Results
 from jostle_lab.run import Plan, run
+from jostle_lab.sweep.command import sweep
 from jostle_lab.thesis.command import figure
 from jostle_lab.torque_demo import demonstrate
 
@@ -32,6 +35,9 @@ app = typer.Typer(
 )
 
 app.command()(figure)
+app.command()(sweep)
+app.command()(ratchet_page)
+app.command()(ratchet_demo)
 
 DEMO_AMPLITUDES = "1,0.7,0.5,0.35,0.25,0.18,0.12,0.08,0.05"
 

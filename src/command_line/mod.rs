@@ -5,6 +5,7 @@
 mod assignments;
 mod describe;
 mod fmu;
+mod report;
 mod run;
 mod scenes;
 #[cfg(test)]
@@ -32,6 +33,7 @@ struct Arguments {
 enum Command {
     Describe(describe::Describe),
     Fmu(fmu::Fmu),
+    Report(report::Report),
     Run(run::Run),
 }
 
@@ -118,6 +120,7 @@ pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Describe(describe) => describe.execute(),
         Command::Fmu(fmu) => fmu.execute(),
+        Command::Report(report) => report.execute(),
         Command::Run(run) => run.execute(),
     };
     match done {

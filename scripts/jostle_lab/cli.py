@@ -17,6 +17,7 @@ from jostle_lab.fmu_grains import FmuFactory, fingerprint
 from jostle_lab.loudspeaker import Loudspeaker
 from jostle_lab.peers import compare
 from jostle_lab.report import write_report
+from jostle_lab.report_command import report
 from jostle_lab.results import Results
 from jostle_lab.run import Plan, run
 from jostle_lab.thesis.command import figure
@@ -31,6 +32,7 @@ app = typer.Typer(
 )
 
 app.command()(figure)
+app.command()(report)
 
 DEMO_AMPLITUDES = "1,0.7,0.5,0.35,0.25,0.18,0.12,0.08,0.05"
 

@@ -3,6 +3,7 @@
 use std::error::Error as StdError;
 
 use cpu_time::ProcessTime;
+use jostle::scene::{Scene, Simulation, Value};
 
 /// Why a point has no number; the report says so instead of leaving it out.
 pub type Trouble = Box<dyn StdError>;
@@ -96,6 +97,24 @@ impl Stopwatch {
 /// `count` settings from `first` on, each `ratio` times the one before.
 pub fn ladder(first: f64, ratio: f64, count: i32) -> impl Iterator<Item = f64> {
     (0..count).map(move |step| first * ratio.powi(step))
+}
+
+/// A count among the outputs of a scene, whole or real; NaN where the scene has none.
+pub fn count<S: Scene>(simulation: &Simulation<S>, name: &str) -> f64 {
+    let position = simulation.values().table().position(name);
+    match position.and_then(|position| simulation.values().get(position)) {
+        Some(Value::Real(real)) => real,
+        Some(Value::Integer(integer)) => integer as f64,
+        None => f64::NAN,
+    }
+}
+
+/// Mean of independent numbers and its standard error.
+pub fn mean_and_error(numbers: &[f64]) -> (f64, f64) {
+    let count = numbers.len() as f64;
+    let mean = numbers.iter().sum::<f64>() / count;
+    let variance = numbers.iter().map(|one| (one - mean).powi(2)).sum::<f64>() / (count - 1.0);
+    (mean, (variance / count).sqrt())
 }
 
 /// Root of the mean square.

@@ -11,11 +11,11 @@ use jostle::scene::packing::PackingOnSine;
 use jostle::scene::packing::event_driven::HardPackingOnSine;
 use jostle::scene::{Choice, Scene, Simulation, Value};
 
-use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder};
+use super::case::{Case, Done, Point, Stopwatch, Trouble, count, ladder, mean_and_error};
 
 const DISKS: u32 = 60;
 const GAMMA: f64 = 4.0;
-const SEEDS: i64 = 8;
+const SEEDS: i64 = 24;
 const SETTLED: f64 = 0.5;
 const SECONDS: f64 = 2.0;
 const SAMPLE: f64 = 0.01;
@@ -90,8 +90,7 @@ fn soft(time_step: f64, watch: &mut Stopwatch) -> Result<Ensemble, Trouble> {
 
 fn hard(contact_time: f64, watch: &mut Stopwatch) -> Result<Ensemble, Trouble> {
     let further = [("collision.contact_time", Value::from(contact_time))];
-    let work = |packing: &Simulation<HardPackingOnSine>| packing.integer("collisions").map_or(0.0, |count| count as f64);
-    ensemble::<HardPackingOnSine>(&further, work, watch)
+    ensemble::<HardPackingOnSine>(&further, |packing| count(packing, "collisions"), watch)
 }
 
 fn ensemble<S: Scene>(
@@ -127,7 +126,9 @@ fn ensemble<S: Scene>(
 /// Where the angular velocities begin among the values.
 fn first_spin<S: Scene>() -> usize {
     let rows = S::variables(Choice { disks: DISKS });
-    rows.iter().position(|row| row.name == "disk.angular_velocity[1]").unwrap_or(0)
+    rows.iter()
+        .position(|row| row.name == "disk.angular_velocity[1]")
+        .unwrap_or(0)
 }
 
 fn real(value: Value) -> f64 {
@@ -139,13 +140,11 @@ fn real(value: Value) -> f64 {
 
 /// Relative bias and its standard error, seed by seed.
 fn compared(found: &Ensemble, exact: &[f64]) -> Done {
-    let count = exact.len() as f64;
-    let scale = exact.iter().sum::<f64>() / count;
+    let scale = exact.iter().sum::<f64>() / exact.len() as f64;
     let differences: Vec<f64> = found.means.iter().zip(exact).map(|(a, b)| (a - b) / scale).collect();
-    let mean = differences.iter().sum::<f64>() / count;
-    let variance = differences.iter().map(|one| (one - mean).powi(2)).sum::<f64>() / (count - 1.0);
+    let (bias, error) = mean_and_error(&differences);
     Done {
-        errors: vec![(mean.abs(), (variance / count).sqrt())],
+        errors: vec![(bias.abs(), error)],
         evaluations: found.work,
     }
 }

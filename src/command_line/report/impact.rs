@@ -78,7 +78,12 @@ fn case(name: &'static str, material: &str, hit: Hit) -> Case {
 
 impl Hit {
     fn law(self) -> Result<Dashpot, Trouble> {
-        Ok(Dashpot::new(STIFFNESS, self.damping, self.stiffness_ratio, self.friction)?)
+        Ok(Dashpot::new(
+            STIFFNESS,
+            self.damping,
+            self.stiffness_ratio,
+            self.friction,
+        )?)
     }
 
     /// e_n, e_t and exit angle.
@@ -161,10 +166,11 @@ fn soft<I: Integrator>(method: &'static str, hit: Hit, steps: f64) -> Point {
             .map(|place| engine::<I>(hit, step, (place as f64 + 0.5) / PLACES as f64))
             .collect();
         let mut engines: Vec<_> = (0..REPEATS).flat_map(|_| fresh.iter().cloned()).collect();
-        watch.measure((REPEATS * PLACES) as u32, || {
-            engines.iter_mut().try_for_each(|(engine, end)| engine.advance_to(*end))
-        })
-        .map_err(|breakdown| format!("{breakdown:?}"))?;
+        watch
+            .measure((REPEATS * PLACES) as u32, || {
+                engines.iter_mut().try_for_each(|(engine, end)| engine.advance_to(*end))
+            })
+            .map_err(|breakdown| format!("{breakdown:?}"))?;
         let outcomes = engines[..PLACES].iter().map(|(engine, _)| {
             let [vx, vy, spin] = engine.now().rates()[0];
             hit.outcome(vy / hit.normal_velocity, (vx + RADIUS * spin) / hit.tangential_velocity)

@@ -156,7 +156,10 @@ fn point<I: Integrator>(method: &'static str, oscillator: Oscillator, steps: f64
         let fresh = oscillator.engine::<I>(period / steps);
         let mut engines = vec![fresh; REPEATS];
         let end = PERIODS * period;
-        watch.measure(REPEATS as u32, || engines.iter_mut().try_for_each(|engine| engine.advance_to(end)))
+        watch
+            .measure(REPEATS as u32, || {
+                engines.iter_mut().try_for_each(|engine| engine.advance_to(end))
+            })
             .map_err(|breakdown| format!("{breakdown:?}"))?;
         let height = engines[0].now().places()[0][1] - (oscillator.touching() - oscillator.sag());
         let error = (height - oscillator.departure(end)).abs() / AMPLITUDE;

@@ -31,7 +31,7 @@ const LONG_ENOUGH: f64 = 4.0;
 /// Measures error against CPU time, for every scene and engine.
 ///
 /// Writes points.csv (case, quantity, method, setting, error, error_bar, cpu_seconds, evaluations), cases.csv (what
-/// these words mean), machine.csv and packing60.txt (the packing that other programs start from) into a folder. CPU
+/// these words mean) and machine.csv into a folder, and the 60-disk packing at its start and end for other programs. CPU
 /// times are medians over rounds in which all points of a case take turns. `python -m jostle_lab report` draws them.
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  jostle report --out results/report --only one_impact\n\n\
@@ -68,13 +68,15 @@ impl Report {
             return Ok(());
         }
         std::fs::create_dir_all(&self.out).map_err(|error| Failure::file(&self.out, error))?;
-        packing::write_state(&self.out.join("packing60.txt"))?;
         tables::write_machine(&self.out.join("machine.csv"), self.rounds)?;
         tables::write_cases(&self.out.join("cases.csv"), &cases)?;
         let mut points = tables::Points::create(&self.out.join("points.csv"))?;
         for mut case in cases {
             let measured = measure(&mut case, self.rounds);
             points.write(&case, &measured)?;
+            if case.name == packing::NAME {
+                packing::write_states(&self.out)?;
+            }
         }
         println!("points.csv, cases.csv, machine.csv in {}", self.out.display());
         Ok(())

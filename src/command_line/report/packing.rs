@@ -4,11 +4,9 @@
 //! programs can start from it too: `packing60.txt`, in lines of `radius x y vx vy omega` after `count width height`.
 //! The bottom is at `A - A cos omega t`: at rest at the start.
 
-use std::cell::OnceCell;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::fmt::Write;
 use std::path::Path;
-use std::rc::Rc;
+use std::sync::OnceLock;
 
 use jostle::contact::{ElasticSkin, LinearDashpot};
 use jostle::drive::Sine;
@@ -20,18 +18,27 @@ use jostle::scene::packing::PackingOnSine;
 use super::super::Failure;
 use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder, root_mean_square};
 
+/// Name of the case.
+pub const NAME: &str = "packing60";
 /// Time followed \[s\]: two periods of the base.
 const HORIZON: f64 = 0.025;
 const DISKS: u32 = 60;
 const WIDTH: f64 = 0.4;
-const GAMMA: f64 = 4.0;
+/// Amplitude \[m\]: Gamma 4 as the peers in C++ and LAMMPS round it.
+const AMPLITUDE: f64 = 1.5514e-4;
 const FREQUENCY: f64 = 80.0;
 const GRAVITY: f64 = 9.8;
 /// Time step of the reference \[s\].
 const REFERENCE_STEP: f64 = 2.5e-9;
 const QUANTITIES: &[(&str, &str)] = &[
-    ("angle", "error of the angles over the angles turned, both rms over the disks"),
-    ("position", "error of the positions over the distances moved, both rms over the disks"),
+    (
+        "angle",
+        "error of the angles over the angles turned, both rms over the disks",
+    ),
+    (
+        "position",
+        "error of the positions over the distances moved, both rms over the disks",
+    ),
 ];
 
 /// One disk of the start: radius \[m\], place (x from the left wall, y from the bottom) \[m\], velocity, spin.
@@ -45,27 +52,17 @@ struct Start {
 /// Places (x, y, angle) of all disks.
 type Places = Vec<[f64; 3]>;
 
-/// What all points share: the start and, once it is needed, the reference.
-struct Shared {
-    start: Vec<Start>,
-    reference: OnceCell<Places>,
-}
-
 /// The packing of 60 disks.
 pub fn cases() -> Vec<Case> {
-    let shared = Rc::new(Shared {
-        start: settled().unwrap_or_default(),
-        reference: OnceCell::new(),
-    });
     let mut points = Vec::new();
     for step in ladder(6.4e-5, 0.5, 10) {
-        points.push(point::<VelocityVerlet>("velocity Verlet", &shared, step));
-        points.push(point::<Gear5>("Gear 5", &shared, step));
+        points.push(point::<VelocityVerlet>("velocity Verlet", step));
+        points.push(point::<Gear5>("Gear 5", step));
     }
     vec![Case {
-        name: "packing60",
+        name: NAME,
         problem: format!(
-            "{DISKS} disks in a box on a bottom shaken at {FREQUENCY} Hz, Gamma {GAMMA}, k_n = 1e4 N/m, for {HORIZON} s."
+            "{DISKS} disks in a box on a bottom shaken at {FREQUENCY} Hz, Gamma 4, k_n = 1e4 N/m, mu = 0.1, for {HORIZON} s."
         ),
         setting: "time step [s]",
         reference: "velocity Verlet at a time step of 2.5 ns",
@@ -74,10 +71,29 @@ pub fn cases() -> Vec<Case> {
     }]
 }
 
+/// The start, settled the first time it is asked for.
+fn start() -> Result<&'static [Start], Trouble> {
+    static START: OnceLock<Vec<Start>> = OnceLock::new();
+    if let Some(known) = START.get() {
+        return Ok(known);
+    }
+    let settled = settled()?;
+    Ok(START.get_or_init(|| settled))
+}
+
+/// The reference, computed the first time it is asked for.
+fn reference() -> Result<&'static Places, Trouble> {
+    static REFERENCE: OnceLock<Places> = OnceLock::new();
+    if let Some(known) = REFERENCE.get() {
+        return Ok(known);
+    }
+    let (places, _) = run::<VelocityVerlet>(REFERENCE_STEP, &mut Stopwatch::default())?;
+    Ok(REFERENCE.get_or_init(|| places))
+}
+
 /// The packing of seed 1 after a second of shaking.
 fn settled() -> Result<Vec<Start>, Trouble> {
-    let amplitude = Sine::amplitude_of(GAMMA, FREQUENCY, GRAVITY);
-    let parameters = [("drive.amplitude", amplitude.into()), ("seed", 1.into())];
+    let parameters = [("drive.amplitude", AMPLITUDE.into()), ("seed", 1.into())];
     let mut packing = Simulation::<PackingOnSine>::new(DISKS, &parameters)?;
     packing.advance_to(1.0)?;
     let engine = packing.scene().engine();
@@ -92,16 +108,22 @@ fn settled() -> Result<Vec<Start>, Trouble> {
         .collect())
 }
 
-/// Writes the start for other programs.
-pub fn write_state(path: &Path) -> Result<(), Failure> {
-    let start = settled().map_err(|trouble| Failure::file(path, std::io::Error::other(trouble.to_string())))?;
+/// Writes start and reference for other programs into `folder`.
+pub fn write_states(folder: &Path) -> Result<(), Failure> {
+    let path = folder.join("packing60.txt");
+    let told = |trouble: Trouble| Failure::file(&path, std::io::Error::other(trouble.to_string()));
     let mut text = format!("{DISKS} {WIDTH} 0.8665\n");
-    for disk in start {
+    for disk in start().map_err(told)? {
         let ([x, y], [vx, vy, spin]) = (disk.place, disk.rates);
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{} {x} {y} {vx} {vy} {spin}", disk.radius);
+        text.push_str(&format!("{} {x} {y} {vx} {vy} {spin}\n", disk.radius));
     }
-    std::fs::write(path, text).map_err(|error| Failure::file(path, error))
+    std::fs::write(&path, text).map_err(|error| Failure::file(&path, error))?;
+    let rows = reference()
+        .map_err(told)?
+        .iter()
+        .map(|[x, y, angle]| format!("{x} {y} {angle}\n"));
+    let path = folder.join("packing60_reference.txt");
+    std::fs::write(&path, rows.collect::<String>()).map_err(|error| Failure::file(&path, error))
 }
 
 fn engine<I: Integrator>(start: &[Start], time_step: f64) -> MolecularDynamics<I, Sine> {
@@ -114,7 +136,7 @@ fn engine<I: Integrator>(start: &[Start], time_step: f64) -> MolecularDynamics<I
         friction: 0.1,
     };
     let drive = Sine {
-        amplitude: Sine::amplitude_of(GAMMA, FREQUENCY, GRAVITY),
+        amplitude: AMPLITUDE,
         frequency: FREQUENCY,
         phase: -FRAC_PI_2,
     };
@@ -147,7 +169,8 @@ fn engine<I: Integrator>(start: &[Start], time_step: f64) -> MolecularDynamics<I
     engine
 }
 
-fn run<I: Integrator>(start: &[Start], time_step: f64, watch: &mut Stopwatch) -> Result<(Places, u64), Trouble> {
+fn run<I: Integrator>(time_step: f64, watch: &mut Stopwatch) -> Result<(Places, u64), Trouble> {
+    let start = start()?;
     let mut engine = engine::<I>(start, time_step);
     watch
         .measure(1, || engine.advance_to(HORIZON))
@@ -155,37 +178,21 @@ fn run<I: Integrator>(start: &[Start], time_step: f64, watch: &mut Stopwatch) ->
     Ok((engine.now().places()[..start.len()].to_vec(), engine.state().steps))
 }
 
-fn point<I: Integrator>(method: &'static str, shared: &Rc<Shared>, step: f64) -> Point {
-    let shared = Rc::clone(shared);
+fn point<I: Integrator>(method: &'static str, step: f64) -> Point {
     Point::new(method, step, move |watch: &mut Stopwatch| {
-        let reference = shared.reference()?;
-        let (places, steps) = run::<I>(&shared.start, step, watch)?;
-        Ok(Done::exact(shared.errors(&places, reference), steps as f64))
+        let exact = reference()?;
+        let (places, steps) = run::<I>(step, watch)?;
+        Ok(Done::exact(errors(&places, exact, start()?), steps as f64))
     })
 }
 
-impl Shared {
-    fn reference(&self) -> Result<&Places, Trouble> {
-        if self.start.is_empty() {
-            return Err("the packing did not settle".into());
-        }
-        if self.reference.get().is_none() {
-            let (places, _) = run::<VelocityVerlet>(&self.start, REFERENCE_STEP, &mut Stopwatch::default())?;
-            return Ok(self.reference.get_or_init(|| places));
-        }
-        self.reference.get().ok_or_else(|| "no reference".into())
-    }
-
-    /// Errors of the angles and of the positions, relative to how far the reference has turned and moved.
-    fn errors(&self, places: &Places, reference: &Places) -> [f64; 2] {
-        let angle = |of: &dyn Fn(usize) -> f64| root_mean_square(&(0..self.start.len()).map(of).collect::<Vec<_>>());
-        let missed = angle(&|disk| places[disk][2] - reference[disk][2]);
-        let turned = angle(&|disk| reference[disk][2]);
-        let off = angle(&|disk| (places[disk][0] - reference[disk][0]).hypot(places[disk][1] - reference[disk][1]));
-        let moved = angle(&|disk| {
-            let [x, y] = self.start[disk].place;
-            (reference[disk][0] - x).hypot(reference[disk][1] - y)
-        });
-        [missed / turned, off / moved]
-    }
+/// Errors of the angles and of the positions, relative to how far the reference has turned and moved.
+fn errors(places: &Places, exact: &Places, start: &[Start]) -> [f64; 2] {
+    let rms = |of: &dyn Fn(usize) -> f64| root_mean_square(&(0..start.len()).map(of).collect::<Vec<_>>());
+    let way = |a: [f64; 2], b: [f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    let missed = rms(&|disk| places[disk][2] - exact[disk][2]);
+    let turned = rms(&|disk| exact[disk][2]);
+    let off = rms(&|disk| way([places[disk][0], places[disk][1]], exact[disk]));
+    let moved = rms(&|disk| way(start[disk].place, exact[disk]));
+    [missed / turned, off / moved]
 }

@@ -6,12 +6,12 @@
 use std::cell::OnceCell;
 use std::rc::Rc;
 
-use jostle::scene::{Scene, Simulation, Value};
 use jostle::scene::ratchet::RatchetOnSine;
+use jostle::scene::{Scene, Simulation, Value};
 
-use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder};
+use super::case::{Case, Done, Point, Stopwatch, Trouble, count, ladder, mean_and_error};
 
-const SEEDS: i64 = 8;
+const SEEDS: i64 = 32;
 const SECONDS: f64 = 10.0;
 const SETTLED: f64 = 1.0;
 const LOWEST: f64 = 1e-5;
@@ -62,10 +62,8 @@ fn transport(floor: f64, first_seed: i64, watch: &mut Stopwatch) -> Result<(f64,
         let mut ratchet = Simulation::<RatchetOnSine>::new(RatchetOnSine::card().default_disks, &parameters)?;
         watch.measure(u32::from(seed == first_seed), || ratchet.advance_to(SETTLED + SECONDS))?;
         means.push(ratchet.real("transport_velocity")?);
-        collisions += ratchet.integer("collisions")? as f64;
+        collisions += count(&ratchet, "collisions");
     }
-    let count = means.len() as f64;
-    let mean = means.iter().sum::<f64>() / count;
-    let variance = means.iter().map(|one| (one - mean).powi(2)).sum::<f64>() / (count - 1.0);
-    Ok((mean, (variance / count).sqrt(), collisions))
+    let (mean, error) = mean_and_error(&means);
+    Ok((mean, error, collisions))
 }

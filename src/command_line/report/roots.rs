@@ -13,16 +13,23 @@ const FLIGHTS: u32 = 2000;
 const PULL: f64 = 9.8;
 const SCAN: f64 = 64.0;
 const QUANTITIES: &[(&str, &str)] = &[
-    ("time", "rms error of the time of the root over a period, where the root is the first one"),
+    (
+        "time",
+        "rms error of the time of the root over a period, where the root is the first one",
+    ),
     ("missed", "share of the flights whose first root was missed"),
 ];
 
 /// Flights of many heights, speeds and phases.
 pub fn cases() -> Vec<Case> {
-    let mut points = vec![Point::new("march to the root", 0.0, |watch: &mut Stopwatch| Ok(solved(watch, march)))];
+    let mut points = vec![Point::new("march to the root", 0.0, |watch: &mut Stopwatch| {
+        Ok(solved(watch, march))
+    })];
     points.extend(ladder(1e-3, 1e-2, 6).map(|tolerance| {
         Point::new("scan and bisection", tolerance, move |watch: &mut Stopwatch| {
-            Ok(solved(watch, |drive, time, flight| scan(drive, time, flight, tolerance)))
+            Ok(solved(watch, |drive, time, flight| {
+                scan(drive, time, flight, tolerance)
+            }))
         })
     }));
     vec![Case {
@@ -94,7 +101,10 @@ fn solved(watch: &mut Stopwatch, solve: impl Fn(&Sine, f64, &Flight) -> f64) -> 
     let drive = drive();
     let flights: Vec<(f64, Flight)> = (1..=FLIGHTS).map(flight).collect();
     let delays: Vec<f64> = watch.measure(FLIGHTS, || {
-        flights.iter().map(|(time, flight)| solve(&drive, *time, flight)).collect()
+        flights
+            .iter()
+            .map(|(time, flight)| solve(&drive, *time, flight))
+            .collect()
     });
     let (mut errors, mut missed) = (Vec::new(), 0.0);
     for ((time, flight), delay) in flights.iter().zip(delays) {

@@ -89,7 +89,10 @@ pub fn write_cases(path: &Path, cases: &[Case]) -> Result<(), Failure> {
 pub fn write_machine(path: &Path, rounds: u32) -> Result<(), Failure> {
     let information = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let mut models = information.lines().filter(|line| line.starts_with("model name"));
-    let model = models.next().and_then(|line| line.split_once(": ")).map_or("unknown", |(_, model)| model);
+    let model = models
+        .next()
+        .and_then(|line| line.split_once(": "))
+        .map_or("unknown", |(_, model)| model);
     let cores = std::thread::available_parallelism().map_or(0, usize::from);
     let build = if cfg!(debug_assertions) { "debug" } else { "optimised" };
     let target = format!(

@@ -9,11 +9,11 @@ use jostle::drive::Sine;
 use jostle::scene::wedge::{WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnSine};
 use jostle::scene::{Scene, Simulation, Value};
 
-use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder};
+use super::case::{Case, Done, Point, Stopwatch, Trouble, count, ladder, mean_and_error};
 
 const TILT: f64 = 21.0;
 const GAMMA: f64 = 2.0;
-const SEEDS: i64 = 8;
+const SEEDS: i64 = 16;
 const SETTLED: f64 = 1.0;
 const REFERENCE_SECONDS: f64 = 1000.0;
 const QUANTITIES: &[(&str, &str)] = &[(
@@ -35,10 +35,18 @@ pub fn cases() -> Vec<Case> {
     let mut points = Vec::new();
     for seconds in ladder(0.25, 4.0, 6) {
         points.push(point::<WedgeMap>("map, random phase", &reference, seconds));
-        points.push(point::<WedgeEventDrivenOnSine>("event-driven, moving wedge", &reference, seconds));
+        points.push(point::<WedgeEventDrivenOnSine>(
+            "event-driven, moving wedge",
+            &reference,
+            seconds,
+        ));
     }
     for seconds in ladder(0.25, 4.0, 3) {
-        points.push(point::<WedgeMolecularDynamicsOnSine>("molecular dynamics", &reference, seconds));
+        points.push(point::<WedgeMolecularDynamicsOnSine>(
+            "molecular dynamics",
+            &reference,
+            seconds,
+        ));
     }
     vec![Case {
         name: "wedge_rotation",
@@ -82,14 +90,12 @@ fn mean<S: Scene>(first_seed: i64, seconds: f64, watch: &mut Stopwatch) -> Resul
         let mut wedge = Simulation::<S>::new(1, &parameters)?;
         watch.measure(u32::from(seed == first_seed), || wedge.advance_to(SETTLED + seconds))?;
         means.push(wedge.real("scaled_angular_velocity")?);
-        collisions += wedge.integer("collisions").map_or(f64::NAN, |count| count as f64);
+        collisions += count(&wedge, "collisions");
     }
-    let count = means.len() as f64;
-    let mean = means.iter().sum::<f64>() / count;
-    let variance = means.iter().map(|one| (one - mean).powi(2)).sum::<f64>() / (count - 1.0);
+    let (mean, error) = mean_and_error(&means);
     Ok(Mean {
         mean,
-        error: (variance / count).sqrt(),
+        error,
         collisions,
     })
 }

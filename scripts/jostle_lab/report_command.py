@@ -45,13 +45,11 @@ def report(
             points.write(data / "points_coupling.csv", points.COLUMNS, rows)
             points.write(data / "cases_coupling.csv", points.CASE_COLUMNS, coupling_points.CASES)
         elif part is Part.LAMMPS:
-            rows = points.measure(peer_points.lammps_points(data), rounds)
-            points.write(data / "points_lammps.csv", points.COLUMNS, rows)
+            _peer(peer_points.lammps(data), data / "points_lammps.csv", rounds)
         else:
             if kernel is None:
                 raise LabError("--measure kernel needs --kernel PATH/refdem.cpp")
-            rows = points.measure(peer_points.kernel_points(data, kernel), rounds)
-            points.write(data / "points_kernel.csv", points.COLUMNS, rows)
+            _peer(peer_points.kernel(data, kernel), data / "points_kernel.csv", rounds)
     work_precision.draw_all(work_precision.diagrams(data), data)
     page.write_text(work_precision.page(data, data.name))
     typer.echo(page)
@@ -63,3 +61,9 @@ def _engines(program: Path, data: Path, rounds: int) -> None:
     done = subprocess.run([str(program), "report", "--out", str(data), "--rounds", str(rounds)], check=False)
     if done.returncode != 0:
         raise LabError(f"{program} report failed.")
+
+
+def _peer(peer: peer_points.Peer, path: Path, rounds: int) -> None:
+    points.write(path, points.COLUMNS, points.measure(peer.points(), rounds))
+    notes = path.with_name(path.name.replace("points", "notes"))
+    points.write(notes, ["case", "note"], [peer.note()])

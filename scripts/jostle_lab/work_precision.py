@@ -182,8 +182,10 @@ def page(folder: Path, pictures: str) -> str:
     found = diagrams(folder)
     machine = {row["name"]: row["value"] for row in read_rows([folder / "machine.csv"])}
     parts = [_head(machine), _summary(found)]
+    notes = read_rows(sorted(folder.glob("notes*.csv")))
     for case in dict.fromkeys(diagram.case for diagram in found):
         parts.append(_section([diagram for diagram in found if diagram.case == case], pictures))
+        parts.extend(row["note"] for row in notes if row["case"] == case)
     return "\n\n".join(parts) + "\n"
 
 

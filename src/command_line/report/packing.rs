@@ -55,7 +55,7 @@ type Places = Vec<[f64; 3]>;
 /// The packing of 60 disks.
 pub fn cases() -> Vec<Case> {
     let mut points = Vec::new();
-    for step in ladder(6.4e-5, 0.5, 10) {
+    for step in ladder(6.25e-5, 0.5, 10) {
         points.push(point::<VelocityVerlet>("velocity Verlet", step));
         points.push(point::<Gear5>("Gear 5", step));
     }

@@ -9,12 +9,15 @@ import csv
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
+from PIL import Image
 
 from jostle_lab.errors import LabError
 from jostle_lab.report import markdown_table
@@ -23,6 +26,8 @@ COLOURS = ("#1f5fa8", "#d07a1f", "#2e7d4f", "#a23b72", "#6b6b6b", "#8a6d1f", "#3
 MARKERS = "osv^DPX*"
 ROUNDING = 1e-14
 """Errors below this are rounding: no order is fitted through them."""
+FLOOR = 1e-16
+"""Where an error of zero is drawn."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +53,11 @@ class Diagram:
     problem: str
     curves: dict[str, list[Point]]
     troubles: tuple[str, ...]
+
+    @property
+    def is_statistical(self) -> bool:
+        """Whether the errors are means over an ensemble."""
+        return any(p.error_bar > 0.0 for points in self.curves.values() for p in points)
 
 
 def read_rows(paths: Iterable[Path]) -> list[dict[str, str]]:
@@ -97,9 +107,11 @@ def _diagram(case: dict[str, str], rows: list[dict[str, str]]) -> Diagram:
 def order(points: list[Point]) -> float | None:
     """Fitted order: minus the slope of log error against log CPU time, or None where three points do not tell.
 
-    Points at rounding and points within two statistical errors of zero are left out.
+    Points at rounding are left out, and whole curves that are means over an ensemble.
     """
-    told = [p for p in points if p.error > max(ROUNDING, 2.0 * p.error_bar) and p.cpu_seconds > 0.0]
+    if any(p.error_bar > 0.0 for p in points):
+        return None
+    told = [p for p in points if p.error > ROUNDING and p.cpu_seconds > 0.0]
     if len(told) < 3:
         return None
     time, error = (np.log([getattr(p, name) for p in told]) for name in ("cpu_seconds", "error"))
@@ -128,37 +140,32 @@ def time_at(points: list[Point], error: float) -> float | None:
 
 
 def draw(diagram: Diagram, axes: Axes, colours: dict[str, tuple[str, str]]) -> None:
-    """Error against CPU time, both logarithmic; the order stands in the legend."""
+    """Error against CPU time, both logarithmic; the order stands in the legend. Dashed: the statistical error alone."""
     for method, points in diagram.curves.items():
         colour, marker = colours[method]
         path = sorted(points, key=lambda p: p.cpu_seconds)
-        shown = [p for p in path if p.error > 0.0]
-        if not shown:
-            continue
-        fitted = order(points)
-        label = method if fitted is None else f"{method}: order {fitted:.1f}"
-        x, y = [p.cpu_seconds for p in shown], [max(p.error, ROUNDING / 100.0) for p in shown]
-        axes.plot(x, y, marker=marker, color=colour, ms=3.2, lw=1.0, label=label)
-        bars = [p for p in shown if p.error_bar > 0.0]
-        if bars:
-            low = [min(p.error_bar, 0.9 * p.error) for p in bars]
-            axes.errorbar(
-                [p.cpu_seconds for p in bars],
-                [p.error for p in bars],
-                yerr=[low, [p.error_bar for p in bars]],
-                fmt="none",
-                ecolor=colour,
-                elinewidth=0.7,
-                capsize=1.5,
-            )
+        x, y = [p.cpu_seconds for p in path], [max(p.error, FLOOR) for p in path]
+        axes.plot(x, y, marker=marker, color=colour, ms=3.2, lw=1.0, label=_label(method, points))
+        if diagram.is_statistical:
+            bars = [p.error_bar for p in path]
+            low = [min(bar, 0.9 * error) for bar, error in zip(bars, y, strict=True)]
+            axes.errorbar(x, y, yerr=[low, bars], fmt="none", ecolor=colour, elinewidth=0.7, capsize=1.5)
+            axes.plot(x, bars, ls="--", color=colour, lw=0.7)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_title(f"{diagram.case}: {diagram.quantity}", fontsize=8)
     axes.set_xlabel("CPU time of one solution [s]", fontsize=7)
-    axes.set_ylabel("error", fontsize=7)
+    axes.set_ylabel("bias; dashed: statistical error" if diagram.is_statistical else "error", fontsize=7)
     axes.tick_params(labelsize=6)
     axes.grid(lw=0.3, color="0.85")
-    axes.legend(fontsize=5.5, framealpha=0.6)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(fontsize=5.5, framealpha=0.6)
+
+
+def _label(method: str, points: list[Point]) -> str:
+    fitted = order(points)
+    return method if fitted is None else f"{method}: order {fitted:.1f}"
 
 
 def draw_all(found: list[Diagram], folder: Path) -> list[Path]:
@@ -172,9 +179,16 @@ def draw_all(found: list[Diagram], folder: Path) -> list[Path]:
         for index, diagram in enumerate(chosen):
             draw(diagram, figure.add_subplot(1, len(chosen), index + 1), colours)
         path = folder / f"{case}.png"
-        figure.savefig(path, dpi=90, metadata={"Software": None}, pil_kwargs={"optimize": True})
+        _save_small(figure, path)
         pictures.append(path)
     return pictures
+
+
+def _save_small(figure: Figure, path: Path) -> None:
+    """PNG of few colours: a third of the size, and nothing of a line drawing is lost."""
+    buffer = BytesIO()
+    figure.savefig(buffer, dpi=90, format="png")
+    Image.open(buffer).convert("RGB").quantize(32).save(path, optimize=True)
 
 
 def page(folder: Path, pictures: str) -> str:
@@ -195,8 +209,8 @@ def _head(machine: dict[str, str]) -> str:
         "Written by `python -m jostle_lab report`; what is measured here is in `docs/report/*.csv`. Each point is one "
         "setting of one method; CPU time is that of one solution without its set-up, the median of "
         f"{machine['rounds']} rounds in which all points of a case take turns. The order is minus the slope of the "
-        "straight line through the points of a curve on log axes; points at rounding or within their statistical error "
-        "are left out of it.\n\n"
+        "straight line through the points of a curve on log axes; points at rounding are left out of it, and curves "
+        "of ensemble means have none.\n\n"
         f"Machine: {machine['processor']}, {machine['cores']} cores, shared. Target: {machine['target']}. "
         f"Version {machine['version']}. Take ratios, not times."
     )
@@ -205,17 +219,21 @@ def _head(machine: dict[str, str]) -> str:
 def _summary(found: list[Diagram]) -> str:
     """Which method is first at which error, and by how much."""
     rows = []
-    for diagram in found:
+    first = {diagram.case: diagram for diagram in reversed(found)}
+    for diagram in reversed(first.values()):
         for level in (1e-2, 1e-4, 1e-6, 1e-8):
             times = {m: t for m, p in diagram.curves.items() if (t := time_at(p, level)) is not None}
-            if len(times) < 2 or any(p.error_bar > 0.0 for points in diagram.curves.values() for p in points):
+            if len(times) < 2 or diagram.is_statistical:
                 continue
             ranked = sorted(times.items(), key=lambda pair: pair[1])
             best = ranked[0][1]
             others = ", ".join(f"{method} {time / best:.3g}" for method, time in ranked[1:])
             rows.append([diagram.case, diagram.quantity, f"{level:.0e}", ranked[0][0], f"{best:.2e}", others])
     header = ["case", "quantity", "error", "fastest", "CPU time [s]", "times slower"]
-    text = "CPU time at equal error, read from the curves; methods that never reach the error are not named."
+    text = (
+        "CPU time at equal error of the first quantity of each case, read from the curves. Methods that do not reach "
+        "the error are not named."
+    )
     return f"## At equal error\n\n{text}\n\n{markdown_table(header, rows)}"
 
 
@@ -232,7 +250,7 @@ def _section(chosen: list[Diagram], pictures: str) -> str:
 
 
 def _numbers(diagram: Diagram) -> str:
-    with_bars = any(p.error_bar > 0.0 for points in diagram.curves.values() for p in points)
+    with_bars = diagram.is_statistical
     rows = []
     for method, points in diagram.curves.items():
         fitted = order(points)

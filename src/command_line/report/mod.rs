@@ -30,7 +30,7 @@ const LONG_ENOUGH: f64 = 4.0;
 
 /// Measures error against CPU time, for every scene and engine.
 ///
-/// Writes points.csv (case, quantity, method, setting, error, error_bar, cpu_seconds, evaluations), cases.csv (what
+/// Writes points_CASE.csv (case, quantity, method, setting, error, error_bar, cpu_seconds, evaluations), cases.csv (what
 /// these words mean) and machine.csv into a folder, and the 60-disk packing at its start and end for other programs. CPU
 /// times are medians over rounds in which all points of a case take turns. `python -m jostle_lab report` draws them.
 #[derive(Args, Debug)]
@@ -69,16 +69,16 @@ impl Report {
         }
         std::fs::create_dir_all(&self.out).map_err(|error| Failure::file(&self.out, error))?;
         tables::write_machine(&self.out.join("machine.csv"), self.rounds)?;
-        tables::write_cases(&self.out.join("cases.csv"), &cases)?;
-        let mut points = tables::Points::create(&self.out.join("points.csv"))?;
+        tables::write_cases(&self.out.join("cases.csv"), &all_cases())?;
         for mut case in cases {
+            let path = self.out.join(format!("points_{}.csv", case.name));
             let measured = measure(&mut case, self.rounds);
-            points.write(&case, &measured)?;
+            tables::write_points(&path, &case, &measured)?;
+            println!("{}", path.display());
             if case.name == packing::NAME {
                 packing::write_states(&self.out)?;
             }
         }
-        println!("points.csv, cases.csv, machine.csv in {}", self.out.display());
         Ok(())
     }
 
@@ -158,5 +158,77 @@ fn median(mut times: Vec<f64>) -> f64 {
         0.5 * (times[middle - 1] + times[middle])
     } else {
         times[middle]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// First error of a method at a setting.
+    fn error(case: &mut Case, method: &str, setting: f64) -> f64 {
+        let mut points = case.points.iter_mut();
+        let point = points.find(|point| point.method == method && point.setting == setting);
+        let done = (point.unwrap().work)(&mut Stopwatch::default()).unwrap();
+        done.errors[0].0
+    }
+
+    /// The closed forms of the plane and the wedge are those of the engine: its error goes as the square of the step.
+    #[test]
+    fn lasting_contacts_show_the_order_of_the_integrator() {
+        for mut case in lasting::cases() {
+            let coarse = error(&mut case, "velocity Verlet", 44.0);
+            let fine = error(&mut case, "velocity Verlet", 352.0);
+            let order = (coarse / fine).log2() / 3.0;
+            assert!(
+                (order - 2.0).abs() < 0.1,
+                "{}: {coarse:e}, {fine:e}, order {order}",
+                case.name
+            );
+            assert!(error(&mut case, "Gear 5", 352.0) < 1e-3 * fine, "{}", case.name);
+        }
+    }
+
+    #[test]
+    fn one_impact_converges_to_the_closed_form() {
+        for mut case in impact::cases() {
+            let (coarse, fine) = (
+                error(&mut case, "velocity Verlet", 160.0),
+                error(&mut case, "velocity Verlet", 1280.0),
+            );
+            assert!(
+                fine < 0.2 * coarse && fine < 3e-4,
+                "{}: {coarse:e}, {fine:e}",
+                case.name
+            );
+            assert!(error(&mut case, "impulse, table", 1.0) < 1e-14, "{}", case.name);
+        }
+    }
+
+    #[test]
+    fn no_flight_passes_its_first_root() {
+        let mut case = roots::cases().remove(0);
+        assert!(error(&mut case, "march to the root", 0.0) < 1e-12);
+    }
+
+    #[test]
+    fn an_unknown_case_is_told_with_the_known_ones() {
+        let report = Report {
+            out: PathBuf::new(),
+            rounds: 1,
+            only: vec!["sandpile".into()],
+            list: false,
+        };
+        let told = report.execute().unwrap_err().to_string();
+        assert!(
+            told.starts_with("--only = sandpile is not allowed: one of: one_impact"),
+            "{told}"
+        );
+    }
+
+    #[test]
+    fn medians_of_odd_and_even_counts() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), 2.5);
     }
 }

@@ -1,64 +1,51 @@
 //! The CSV files of a report.
 
-use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::super::{Failure, text};
 use super::Measured;
 use super::case::Case;
 
-/// `points.csv`: one row for each quantity of each point. A point without a number has its reason in the last column.
-pub struct Points {
-    path: PathBuf,
-    writer: csv::Writer<File>,
-}
-
-impl Points {
-    pub fn create(path: &Path) -> Result<Self, Failure> {
-        let mut points = Self {
-            path: path.to_owned(),
-            writer: csv::Writer::from_path(path).map_err(|error| Failure::file(path, error))?,
-        };
-        points.record(&[
-            "case",
-            "quantity",
-            "method",
-            "setting",
-            "error",
-            "error_bar",
-            "cpu_seconds",
-            "evaluations",
-            "trouble",
-        ])?;
-        Ok(points)
-    }
-
-    /// Writes all points of a case and hands them to the operating system.
-    pub fn write(&mut self, case: &Case, measured: &[Measured]) -> Result<(), Failure> {
-        for point in measured {
-            for (index, (quantity, _)) in case.quantities.iter().enumerate() {
-                let (numbers, trouble) = match &point.outcome {
-                    Ok((done, seconds)) => {
-                        let (error, bar) = done.errors[index];
-                        ([error, bar, *seconds, done.evaluations].map(short), String::new())
-                    }
-                    Err(trouble) => (<[String; 4]>::default(), trouble.clone()),
-                };
-                let setting = short(point.setting);
-                let mut record = vec![case.name, quantity, point.method, &setting];
-                record.extend(numbers.iter().map(String::as_str));
-                record.push(&trouble);
-                self.record(&record)?;
-            }
-        }
-        self.writer.flush().map_err(|error| Failure::file(&self.path, error))
-    }
-
-    fn record(&mut self, cells: &[&str]) -> Result<(), Failure> {
-        self.writer
-            .write_record(cells)
-            .map_err(|error| Failure::file(&self.path, error))
-    }
+/// One row for each quantity of each point. A point without a number has its reason in the last column.
+pub fn write_points(path: &Path, case: &Case, measured: &[Measured]) -> Result<(), Failure> {
+    let header = [
+        "case",
+        "quantity",
+        "method",
+        "setting",
+        "error",
+        "error_bar",
+        "cpu_seconds",
+        "evaluations",
+        "trouble",
+    ];
+    let rows = measured.iter().flat_map(|point| {
+        case.quantities.iter().enumerate().map(move |(index, (quantity, _))| {
+            let (numbers, trouble) = match &point.outcome {
+                Ok((done, seconds)) => {
+                    let (error, bar) = done.errors[index];
+                    ([error, bar, *seconds, done.evaluations].map(short), String::new())
+                }
+                Err(trouble) => (<[String; 4]>::default(), trouble.clone()),
+            };
+            let [error, bar, seconds, evaluations] = numbers;
+            let words = [case.name, quantity, point.method].map(String::from);
+            let [case, quantity, method] = words;
+            let setting = short(point.setting);
+            [
+                case,
+                quantity,
+                method,
+                setting,
+                error,
+                bar,
+                seconds,
+                evaluations,
+                trouble,
+            ]
+        })
+    });
+    write(path, std::iter::once(header.map(String::from)).chain(rows))
 }
 
 /// Five digits: more would be noise.
@@ -67,7 +54,7 @@ fn short(number: f64) -> String {
     text::number(rounded)
 }
 
-/// `cases.csv`: what the words in `points.csv` mean.
+/// `cases.csv`: what the words in the points mean.
 pub fn write_cases(path: &Path, cases: &[Case]) -> Result<(), Failure> {
     let header = ["case", "quantity", "error", "setting", "reference", "problem"].map(String::from);
     let rows = cases.iter().flat_map(|case| {

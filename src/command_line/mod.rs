@@ -8,6 +8,7 @@ mod fmu;
 mod report;
 mod run;
 mod scenes;
+mod stability;
 #[cfg(test)]
 mod test_scene;
 mod text;
@@ -35,6 +36,7 @@ enum Command {
     Fmu(fmu::Fmu),
     Report(report::Report),
     Run(run::Run),
+    Stability(stability::Stability),
 }
 
 /// Which scene, as what component: shared by all commands.
@@ -122,6 +124,7 @@ pub fn main() -> ExitCode {
         Command::Fmu(fmu) => fmu.execute(),
         Command::Report(report) => report.execute(),
         Command::Run(run) => run.execute(),
+        Command::Stability(stability) => stability.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -14,12 +14,14 @@ from jostle_lab.errors import LabError
 from jostle_lab.experiment import Setup
 from jostle_lab.figures import draw_all
 from jostle_lab.fmu_grains import FmuFactory, fingerprint
+from jostle_lab.leave_out import leave_out
 from jostle_lab.loudspeaker import Loudspeaker
 from jostle_lab.peers import compare
 from jostle_lab.report import write_report
 from jostle_lab.report_command import report
 from jostle_lab.results import Results
 from jostle_lab.run import Plan, run
+from jostle_lab.stability_page import stability
 from jostle_lab.thesis.command import figure
 
 app = typer.Typer(
@@ -33,6 +35,8 @@ app = typer.Typer(
 
 app.command()(figure)
 app.command()(report)
+app.command()(leave_out)
+app.command()(stability)
 
 DEMO_AMPLITUDES = "1,0.7,0.5,0.35,0.25,0.18,0.12,0.08,0.05"
 

@@ -2,7 +2,7 @@
 
 import csv
 import statistics
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -74,3 +74,12 @@ def write(path: Path, columns: Sequence[str], rows: Sequence[dict[str, str]]) ->
         writer = csv.DictWriter(file, fieldnames=columns, lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
+
+
+def read_rows(paths: Iterable[Path]) -> list[dict[str, str]]:
+    """All rows of several CSV files, one behind the other."""
+    rows: list[dict[str, str]] = []
+    for path in paths:
+        with path.open(newline="") as file:
+            rows.extend(csv.DictReader(file))
+    return rows

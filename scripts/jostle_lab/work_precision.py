@@ -5,9 +5,7 @@ A folder holds `points*.csv` (case, quantity, method, setting, error, error_bar,
 here.
 """
 
-import csv
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from io import BytesIO
 from itertools import pairwise
@@ -19,7 +17,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 from PIL import Image
 
+from jostle_lab import leave_out
 from jostle_lab.errors import LabError
+from jostle_lab.points import read_rows
 from jostle_lab.report import markdown_table
 
 COLOURS = ("#1f5fa8", "#d07a1f", "#2e7d4f", "#a23b72", "#6b6b6b", "#8a6d1f", "#3b9a9c", "#b03a2e")
@@ -58,15 +58,6 @@ class Diagram:
     def is_statistical(self) -> bool:
         """Whether the errors are means over an ensemble."""
         return any(p.error_bar > 0.0 for points in self.curves.values() for p in points)
-
-
-def read_rows(paths: Iterable[Path]) -> list[dict[str, str]]:
-    """All rows of several CSV files, one behind the other."""
-    rows: list[dict[str, str]] = []
-    for path in paths:
-        with path.open(newline="") as file:
-            rows.extend(csv.DictReader(file))
-    return rows
 
 
 def diagrams(folder: Path) -> list[Diagram]:
@@ -196,6 +187,9 @@ def page(folder: Path, pictures: str) -> str:
     found = diagrams(folder)
     machine = {row["name"]: row["value"] for row in read_rows([folder / "machine.csv"])}
     parts = [_head(machine), _summary(found)]
+    counts = folder.parent / "leave_out"
+    if (counts / "instructions.csv").is_file():
+        parts.append(leave_out.section(counts))
     notes = read_rows(sorted(folder.glob("notes*.csv")))
     for case in dict.fromkeys(diagram.case for diagram in found):
         parts.append(_section([diagram for diagram in found if diagram.case == case], pictures))

@@ -4,6 +4,7 @@ import math
 from pathlib import Path
 
 import pytest
+from jostle_lab import stability_page
 from jostle_lab.errors import LabError
 from jostle_lab.work_precision import Point, diagrams, draw_all, order, page, time_at
 
@@ -17,6 +18,11 @@ def curve(errors: list[float], times: list[float]) -> list[Point]:
 def test_committed_page_is_that_of_the_committed_data() -> None:
     written = page(ROOT / "docs/report", "report")
     assert written == (ROOT / "docs/report.md").read_text(), "write it anew: python -m jostle_lab report"
+
+
+def test_committed_stability_page_is_that_of_the_committed_data() -> None:
+    written = stability_page.page(ROOT / "docs/stability")
+    assert written == (ROOT / "docs/stability.md").read_text(), "write it anew: python -m jostle_lab stability"
 
 
 def test_every_case_has_points_and_a_small_picture(tmp_path: Path) -> None:

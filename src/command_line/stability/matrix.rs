@@ -21,7 +21,7 @@ pub struct Probe {
     pub seconds: f64,
     /// Communication step \[s\], if it matters; else the budget decides.
     pub communication: Option<f64>,
-    /// Displacement \[m\] to which the base is made to jump half way.
+    /// Displacement \[m\] to which the base is made to jump after 20 ms.
     pub jump: Option<f64>,
     /// Parameters of the tame neighbour, whose mean kinetic energy must agree.
     pub tame: Option<Vec<(&'static str, Value)>>,
@@ -143,7 +143,7 @@ impl Kind {
             let changes = if self.scene == "packing" {
                 vec![("box.width", width(count).into())]
             } else {
-                vec![("tooth.count", i64::from(count.div_ceil(4).max(2)).into())]
+                vec![("tooth.count", i64::from(count.div_ceil(4).max(4)).into())]
             };
             let mut probe = self.probe("disks", format!("{count}"), changes);
             probe.disks = count;

@@ -8,10 +8,11 @@ use std::f64::consts::{PI, TAU};
 use jostle::collision::{CollisionLaw, Dashpot, Impact, TabulatedDashpot};
 use jostle::contact::{ElasticSkin, LinearDashpot};
 use jostle::drive::Sine;
-use jostle::engine::molecular_dynamics::{ContactLaws, Gear5, Integrator, MolecularDynamics, Setup, VelocityVerlet};
+use jostle::engine::molecular_dynamics::{ContactLaws, Setup};
 use jostle::geometry::{Disk, Wall};
 
 use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder, root_mean_square};
+use super::engines::{SoftEngine, each_engine};
 
 const RADIUS: f64 = 0.02;
 const STIFFNESS: f64 = 1e4;
@@ -58,8 +59,7 @@ pub fn cases() -> Vec<Case> {
 fn case(name: &'static str, material: &str, hit: Hit) -> Case {
     let mut points = Vec::new();
     for steps in ladder(20.0, 2.0, 10) {
-        points.push(soft::<VelocityVerlet>("velocity Verlet", hit, steps));
-        points.push(soft::<Gear5>("Gear 5", hit, steps));
+        each_engine!(points, soft(hit, steps));
     }
     points.push(stitched(hit));
     points.push(tabulated(hit));
@@ -119,7 +119,7 @@ fn contact_time() -> f64 {
 }
 
 /// The disk just before touch, at `place` of a time step; and when to look at it.
-fn engine<I: Integrator>(hit: Hit, step: f64, place: f64) -> (MolecularDynamics<I, Sine>, f64) {
+fn engine<E: SoftEngine>(hit: Hit, step: f64, place: f64) -> (E, f64) {
     let laws = ContactLaws {
         normal: LinearDashpot {
             stiffness: STIFFNESS,
@@ -149,21 +149,18 @@ fn engine<I: Integrator>(hit: Hit, step: f64, place: f64) -> (MolecularDynamics<
         frequency: 1.0,
         phase: 0.0,
     };
-    let mut engine = MolecularDynamics::new(setup, &[disk], at_rest);
-    engine.set_motion(|state| {
-        let surface = [hit.tangential_velocity, -hit.normal_velocity, 0.0];
-        state.velocity[..3].copy_from_slice(&surface);
-    });
+    let rates = [hit.tangential_velocity, -hit.normal_velocity, 0.0];
+    let engine = E::start(setup, &[disk], at_rest, &[rates]);
     let end = (1.6 * contact_time() / step).ceil() * step + 2.0 * step;
     (engine, end)
 }
 
-fn soft<I: Integrator>(method: &'static str, hit: Hit, steps: f64) -> Point {
+fn soft<E: SoftEngine>(hit: Hit, steps: f64) -> Point {
     let step = contact_time() / steps;
-    Point::new(method, steps, move |watch: &mut Stopwatch| {
+    Point::new(E::METHOD, steps, move |watch: &mut Stopwatch| {
         let exact = hit.exact()?;
         let fresh: Vec<_> = (0..PLACES)
-            .map(|place| engine::<I>(hit, step, (place as f64 + 0.5) / PLACES as f64))
+            .map(|place| engine::<E>(hit, step, (place as f64 + 0.5) / PLACES as f64))
             .collect();
         let mut engines: Vec<_> = (0..REPEATS).flat_map(|_| fresh.iter().cloned()).collect();
         watch
@@ -172,14 +169,14 @@ fn soft<I: Integrator>(method: &'static str, hit: Hit, steps: f64) -> Point {
             })
             .map_err(|breakdown| format!("{breakdown:?}"))?;
         let outcomes = engines[..PLACES].iter().map(|(engine, _)| {
-            let [vx, vy, spin] = engine.now().rates()[0];
+            let [vx, vy, spin] = engine.first_rate();
             hit.outcome(vy / hit.normal_velocity, (vx + RADIUS * spin) / hit.tangential_velocity)
         });
         let misses: Vec<[f64; 3]> = outcomes
             .map(|found| std::array::from_fn(|i| found[i] - exact[i]))
             .collect();
         let errors = (0..3).map(|i| root_mean_square(&misses.iter().map(|miss| miss[i]).collect::<Vec<_>>()));
-        Ok(Done::exact(errors, engines[0].0.state().steps as f64))
+        Ok(Done::exact(errors, E::PASSES * engines[0].0.steps() as f64))
     })
 }
 

@@ -10,10 +10,11 @@ use std::f64::consts::{PI, TAU};
 
 use jostle::contact::{ElasticSkin, LinearDashpot};
 use jostle::drive::Sine;
-use jostle::engine::molecular_dynamics::{ContactLaws, Gear5, Integrator, MolecularDynamics, Setup, VelocityVerlet};
+use jostle::engine::molecular_dynamics::{ContactLaws, Setup};
 use jostle::geometry::{Disk, Wall};
 
 use super::case::{Case, Done, Point, Stopwatch, ladder};
+use super::engines::{SoftEngine, each_engine};
 use super::impact::contact_period;
 
 const RADIUS: f64 = 0.02;
@@ -51,8 +52,7 @@ pub fn cases() -> Vec<Case> {
 fn case(name: &'static str, problem: String, oscillator: fn() -> Oscillator) -> Case {
     let mut points = Vec::new();
     for steps in ladder(22.0, 2.0, 7) {
-        points.push(point::<VelocityVerlet>("velocity Verlet", oscillator(), steps));
-        points.push(point::<Gear5>("Gear 5", oscillator(), steps));
+        each_engine!(points, point(oscillator(), steps));
     }
     Case {
         name,
@@ -100,7 +100,7 @@ impl Oscillator {
         RADIUS / self.walls[0].normal[1]
     }
 
-    fn engine<I: Integrator>(&self, step: f64) -> MolecularDynamics<I, Sine> {
+    fn engine<E: SoftEngine>(&self, step: f64) -> E {
         let laws = ContactLaws {
             normal: LinearDashpot {
                 stiffness: STIFFNESS,
@@ -129,7 +129,7 @@ impl Oscillator {
             frequency: FREQUENCY,
             phase: 0.0,
         };
-        MolecularDynamics::new(setup, &[disk], drive)
+        E::start(setup, &[disk], drive, &[[0.0; 3]])
     }
 
     /// Departure \[m\] from the height at the start, which is one of rest, at `time` \[s\].
@@ -150,10 +150,10 @@ impl Oscillator {
     }
 }
 
-fn point<I: Integrator>(method: &'static str, oscillator: Oscillator, steps: f64) -> Point {
+fn point<E: SoftEngine>(oscillator: Oscillator, steps: f64) -> Point {
     let period = contact_period(oscillator.mass, oscillator.stiffness);
-    Point::new(method, steps, move |watch: &mut Stopwatch| {
-        let fresh = oscillator.engine::<I>(period / steps);
+    Point::new(E::METHOD, steps, move |watch: &mut Stopwatch| {
+        let fresh = oscillator.engine::<E>(period / steps);
         let mut engines = vec![fresh; REPEATS];
         let end = PERIODS * period;
         watch
@@ -161,8 +161,8 @@ fn point<I: Integrator>(method: &'static str, oscillator: Oscillator, steps: f64
                 engines.iter_mut().try_for_each(|engine| engine.advance_to(end))
             })
             .map_err(|breakdown| format!("{breakdown:?}"))?;
-        let height = engines[0].now().places()[0][1] - (oscillator.touching() - oscillator.sag());
+        let height = engines[0].places(1)[0][1] - (oscillator.touching() - oscillator.sag());
         let error = (height - oscillator.departure(end)).abs() / AMPLITUDE;
-        Ok(Done::exact([error], engines[0].state().steps as f64))
+        Ok(Done::exact([error], E::PASSES * engines[0].steps() as f64))
     })
 }

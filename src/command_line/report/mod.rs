@@ -5,6 +5,7 @@
 //! another program.
 
 mod case;
+mod engines;
 mod ensemble;
 mod impact;
 mod lasting;

@@ -10,13 +10,14 @@ use std::sync::OnceLock;
 
 use jostle::contact::{ElasticSkin, LinearDashpot};
 use jostle::drive::Sine;
-use jostle::engine::molecular_dynamics::{ContactLaws, Gear5, Integrator, MolecularDynamics, Setup, VelocityVerlet};
+use jostle::engine::molecular_dynamics::{ContactLaws, Setup};
 use jostle::geometry::{Disk, Wall};
 use jostle::scene::Simulation;
 use jostle::scene::packing::PackingOnSine;
 
 use super::super::Failure;
 use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder, root_mean_square};
+use super::engines::{SoftEngine, Verlet, each_engine};
 
 /// Name of the case.
 pub const NAME: &str = "packing60";
@@ -56,8 +57,7 @@ type Places = Vec<[f64; 3]>;
 pub fn cases() -> Vec<Case> {
     let mut points = Vec::new();
     for step in ladder(6.25e-5, 0.5, 10) {
-        points.push(point::<VelocityVerlet>("velocity Verlet", step));
-        points.push(point::<Gear5>("Gear 5", step));
+        each_engine!(points, point(step));
     }
     vec![Case {
         name: NAME,
@@ -87,7 +87,7 @@ fn reference() -> Result<&'static Places, Trouble> {
     if let Some(known) = REFERENCE.get() {
         return Ok(known);
     }
-    let (places, _) = run::<VelocityVerlet>(REFERENCE_STEP, &mut Stopwatch::default())?;
+    let (places, _) = run::<Verlet>(REFERENCE_STEP, &mut Stopwatch::default())?;
     Ok(REFERENCE.get_or_init(|| places))
 }
 
@@ -126,7 +126,7 @@ pub fn write_states(folder: &Path) -> Result<(), Failure> {
     std::fs::write(&path, rows.collect::<String>()).map_err(|error| Failure::file(&path, error))
 }
 
-fn engine<I: Integrator>(start: &[Start], time_step: f64) -> MolecularDynamics<I, Sine> {
+fn engine<E: SoftEngine>(start: &[Start], time_step: f64) -> E {
     let normal = LinearDashpot {
         stiffness: 1e4,
         damping: 0.1,
@@ -160,29 +160,25 @@ fn engine<I: Integrator>(start: &[Start], time_step: f64) -> MolecularDynamics<I
             radius: disk.radius,
         })
         .collect();
-    let mut engine = MolecularDynamics::new(setup, &disks, drive);
-    engine.set_motion(|state| {
-        for (velocity, disk) in state.velocity.as_chunks_mut().0.iter_mut().zip(start) {
-            *velocity = disk.rates;
-        }
-    });
-    engine
+    let rates: Vec<[f64; 3]> = start.iter().map(|disk| disk.rates).collect();
+    E::start(setup, &disks, drive, &rates)
 }
 
-fn run<I: Integrator>(time_step: f64, watch: &mut Stopwatch) -> Result<(Places, u64), Trouble> {
+/// Places at the horizon, and passes over all contacts until then.
+fn run<E: SoftEngine>(time_step: f64, watch: &mut Stopwatch) -> Result<(Places, f64), Trouble> {
     let start = start()?;
-    let mut engine = engine::<I>(start, time_step);
+    let mut engine = engine::<E>(start, time_step);
     watch
         .measure(1, || engine.advance_to(HORIZON))
         .map_err(|breakdown| format!("{breakdown:?}"))?;
-    Ok((engine.now().places()[..start.len()].to_vec(), engine.state().steps))
+    Ok((engine.places(start.len()), E::PASSES * engine.steps() as f64))
 }
 
-fn point<I: Integrator>(method: &'static str, step: f64) -> Point {
-    Point::new(method, step, move |watch: &mut Stopwatch| {
+fn point<E: SoftEngine>(step: f64) -> Point {
+    Point::new(E::METHOD, step, move |watch: &mut Stopwatch| {
         let exact = reference()?;
-        let (places, steps) = run::<I>(step, watch)?;
-        Ok(Done::exact(errors(&places, exact, start()?), steps as f64))
+        let (places, passes) = run::<E>(step, watch)?;
+        Ok(Done::exact(errors(&places, exact, start()?), passes))
     })
 }
 

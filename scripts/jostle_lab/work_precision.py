@@ -96,19 +96,19 @@ def _diagram(case: dict[str, str], rows: list[dict[str, str]]) -> Diagram:
 
 
 def order(points: list[Point]) -> float | None:
-    """Fitted order: minus the slope of log error against log CPU time, or None where three points do not tell.
+    """Fitted order: minus the slope of log error against log evaluations, or None where three points do not tell.
 
     Points at rounding are left out, and whole curves that are means over an ensemble.
     """
     if any(p.error_bar > 0.0 for p in points):
         return None
-    told = [p for p in points if p.error > ROUNDING and p.cpu_seconds > 0.0]
+    told = [p for p in points if p.error > ROUNDING and p.evaluations > 0.0]
     if len(told) < 3:
         return None
-    time, error = (np.log([getattr(p, name) for p in told]) for name in ("cpu_seconds", "error"))
-    if np.ptp(time) < math.log(3.0):
+    work, error = (np.log([getattr(p, name) for p in told]) for name in ("evaluations", "error"))
+    if np.ptp(work) < math.log(3.0):
         return None
-    return float(-np.polyfit(time, error, 1)[0])
+    return float(-np.polyfit(work, error, 1)[0])
 
 
 def time_at(points: list[Point], error: float) -> float | None:
@@ -203,7 +203,7 @@ def _head(machine: dict[str, str]) -> str:
         "Written by `python -m jostle_lab report`; what is measured here is in `docs/report/*.csv`. Each point is one "
         "setting of one method; CPU time is that of one solution without its set-up, the median of "
         f"{machine['rounds']} rounds in which all points of a case take turns. The order is minus the slope of the "
-        "straight line through the points of a curve on log axes; points at rounding are left out of it, and curves "
+        "straight line through error against evaluations on log axes: of CPU time without what does not grow with them. Points at rounding are left out of it, and curves "
         "of ensemble means have none.\n\n"
         f"Machine: {machine['processor']}, {machine['cores']} cores, shared. Target: {machine['target']}. "
         f"Version {machine['version']}. Take ratios, not times."

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def curve(errors: list[float], times: list[float]) -> list[Point]:
-    return [Point(1.0, error, 0.0, time, 1.0) for error, time in zip(errors, times, strict=True)]
+    return [Point(1.0, error, 0.0, time, time) for error, time in zip(errors, times, strict=True)]
 
 
 def test_committed_page_is_that_of_the_committed_data() -> None:

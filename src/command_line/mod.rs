@@ -4,6 +4,7 @@
 
 mod assignments;
 mod describe;
+mod fields;
 mod fmu;
 mod report;
 mod run;
@@ -33,6 +34,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Describe(describe::Describe),
+    Fields(fields::Fields),
     Fmu(fmu::Fmu),
     Report(report::Report),
     Run(run::Run),
@@ -121,6 +123,7 @@ impl fmt::Display for Failure {
 pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Describe(describe) => describe.execute(),
+        Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
         Command::Report(report) => report.execute(),
         Command::Run(run) => run.execute(),

@@ -39,4 +39,8 @@ pub trait BoundedDrive: Drive {
 
     /// End \[s\] of what is known of the motion.
     fn known_until(&self) -> f64;
+
+    /// The same motion with time counted from `origin` \[s\], so that times keep their digits in long runs.
+    #[must_use]
+    fn counted_from(&self, origin: f64) -> Self;
 }

@@ -4,6 +4,7 @@
 //! it. Neither names FMI.
 
 pub mod base_drive;
+pub mod hard_disks;
 pub mod packing;
 pub mod ratchet;
 mod simulation;

@@ -86,6 +86,7 @@ pub enum Unit {
     NewtonPerMetre,
     NewtonSecond,
     Joule,
+    Watt,
 }
 
 impl Unit {
@@ -107,6 +108,7 @@ impl Unit {
             Self::NewtonPerMetre => "N/m",
             Self::NewtonSecond => "N.s",
             Self::Joule => "J",
+            Self::Watt => "W",
         }
     }
 
@@ -136,6 +138,7 @@ impl Unit {
             Self::NewtonPerMetre => (1, 0, -2, 0),
             Self::NewtonSecond => (1, 1, -1, 0),
             Self::Joule => (1, 2, -2, 0),
+            Self::Watt => (1, 2, -3, 0),
         }
     }
 }

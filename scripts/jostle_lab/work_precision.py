@@ -203,8 +203,8 @@ def _head(machine: dict[str, str]) -> str:
         "Written by `python -m jostle_lab report`; what is measured here is in `docs/report/*.csv`. Each point is one "
         "setting of one method; CPU time is that of one solution without its set-up, the median of "
         f"{machine['rounds']} rounds in which all points of a case take turns. The order is minus the slope of the "
-        "straight line through error against evaluations on log axes: of CPU time without what does not grow with them. Points at rounding are left out of it, and curves "
-        "of ensemble means have none.\n\n"
+        "straight line through error against evaluations on log axes, which is that against CPU time without what does "
+        "not grow with the work. Points at rounding are left out of it; curves of ensemble means have none.\n\n"
         f"Machine: {machine['processor']}, {machine['cores']} cores, shared. Target: {machine['target']}. "
         f"Version {machine['version']}. Take ratios, not times."
     )

@@ -13,6 +13,7 @@ mod stability;
 #[cfg(test)]
 mod test_scene;
 mod text;
+mod theory;
 
 use std::fmt;
 use std::io;
@@ -39,6 +40,7 @@ enum Command {
     Report(report::Report),
     Run(run::Run),
     Stability(stability::Stability),
+    Theory(theory::Theory),
 }
 
 /// Which scene, as what component: shared by all commands.
@@ -128,6 +130,7 @@ pub fn main() -> ExitCode {
         Command::Report(report) => report.execute(),
         Command::Run(run) => run.execute(),
         Command::Stability(stability) => stability.execute(),
+        Command::Theory(theory) => theory.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -23,6 +23,10 @@ COMPONENTS = [
     ("wedge", "molecular-dynamics", "sine"),
     ("ratchet", "event-driven", "input"),
     ("ratchet", "event-driven", "sine"),
+    ("three_disk", "molecular-dynamics", "input"),
+    ("three_disk", "molecular-dynamics", "harmonic-torque"),
+    ("three_disk", "molecular-dynamics", "random-supports"),
+    ("three_disk", "molecular-dynamics", "sine"),
 ]
 
 

@@ -43,7 +43,8 @@ class Workload:
         return [*valgrind, *run, "--seconds", repr(seconds), "--sample", repr(seconds), "--output", f"{output}.csv"]
 
 
-SOFT, HARD = "packing --engine molecular-dynamics", "packing --engine event-driven"
+SOFT = "packing --engine molecular-dynamics --set time_step=1e-5"
+HARD = "packing --engine event-driven"
 WEDGE = "wedge --engine"
 WORKLOADS = (
     Workload("soft packing", "60 disks, all of it", SOFT, 0.3, 0.34),

@@ -13,6 +13,7 @@ mod packing;
 mod ratchet;
 mod roots;
 mod tables;
+mod torque;
 mod wedge;
 
 use std::path::PathBuf;
@@ -103,6 +104,7 @@ fn all_cases() -> Vec<Case> {
         ensemble::cases(),
         wedge::cases(),
         ratchet::cases(),
+        torque::cases(),
         roots::cases(),
     ];
     families.into_iter().flatten().collect()

@@ -49,6 +49,8 @@ const HARD_WEDGE: Kind = kind("wedge", "event-driven", 1, 9.81);
 const SOFT_WEDGE: Kind = kind("wedge", "molecular-dynamics", 1, 9.81);
 const RATCHET: Kind = kind("ratchet", "event-driven", 20, 9.81);
 
+const THREE_DISK: Kind = kind("three_disk", "molecular-dynamics", 1, 10.0);
+
 const fn kind(scene: &'static str, engine: &'static str, disks: u32, gravity: f64) -> Kind {
     let base = &[];
     Kind {
@@ -166,6 +168,7 @@ pub fn all() -> Vec<Probe> {
     for kind in [SOFT_PACKING, HARD_PACKING, HARD_WEDGE, SOFT_WEDGE, RATCHET] {
         probes.extend(kind.jumps());
     }
+    probes.extend(three_disks(THREE_DISK));
     probes
 }
 
@@ -277,5 +280,28 @@ fn ratchets(kind: Kind) -> Vec<Probe> {
     }));
     probes.extend(kind.counts(&[1, 2, 1000]));
     probes.extend(kind.looks());
+    probes
+}
+
+/// A disk on two supports under a harmonic torque.
+fn three_disks(kind: Kind) -> Vec<Probe> {
+    let mut probes = kind.over(
+        "stiffness [N/m]",
+        "contact.normal_stiffness",
+        &[1e2, 1e4, 1e6, 1e8, 1e10],
+    );
+    probes.extend(kind.over("stiffness ratio", "contact.stiffness_ratio", &[1e-2, 1.0, 1e2, 1e4]));
+    probes.extend(kind.over("friction", "contact.friction", &[0.0, 0.1, 1.0, 10.0]));
+    // Critical damping of 0.1 kg at 1e3 N/m is 20 kg/s.
+    probes.extend(kind.over("damping [kg/s]", "contact.normal_damping", &[0.0, 20.0, 200.0]));
+    probes.extend(kind.over("mass [kg]", "disk.mass", &[1e-6, 1e-3, 1.0]));
+    let critical = PI / 6.0;
+    probes.extend([1e-2, 1e-6, 1e-12, 0.0, -1e-6].map(|below| {
+        let value = format!("critical less {below:e} rad");
+        kind.probe("tilt", value, vec![("tilt", (critical - below).into())])
+    }));
+    probes.extend(kind.over("torque [N.m]", "torque.amplitude", &[1e-6, 0.1, 1.0, 100.0]));
+    probes.extend(kind.over("torque [rad/s]", "torque.angular_frequency", &[0.1, 10.0, 1e3, 1e5]));
+    probes.iter_mut().for_each(|probe| probe.drive = "harmonic-torque");
     probes
 }

@@ -239,7 +239,9 @@ impl<S: Scene> Watch<S> {
                 radius - nearest
             }
             // Valleys are at the base; the gap to the teeth is the engine's own test.
-            _ => below.max(y + radius - parameter("cell.height")),
+            "ratchet" => below.max(y + radius - parameter("cell.height")),
+            // Two supports confine no disk.
+            _ => f64::NEG_INFINITY,
         }
     }
 }

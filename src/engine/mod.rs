@@ -1,5 +1,6 @@
 //! What advances time.
 
 pub mod event_driven;
+pub mod located_dynamics;
 pub mod molecular_dynamics;
 pub mod wedge;

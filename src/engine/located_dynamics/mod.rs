@@ -1,49 +1,74 @@
-//! prototype
-#![allow(missing_docs)]
+//! Molecular dynamics of fourth order: steps on a fixed grid of time, and every change of a contact at its own instant.
+//!
+//! Touch, release, yield and hold of a contact are found inside the step and integrated for this contact alone; the
+//! other contacts go on with the whole step. So the order survives what happens at contacts, and the cost of what happens
+//! is that of one contact.
+//!
+//! A step predicts places and rates at its end, then twice: takes the relative motion of each contact as the cubic
+//! between its ends, integrates its force along it (`passage`, `pieces`), and corrects the ends by the impulses.
+//!
+//! Needs: radii and masses, contact laws, walls, a drive. Guarantees: the trajectory lives on the grid
+//! `start + n time_step` alone; a look between two grid points takes one short step on a copy. Momentum is kept to
+//! rounding: a contact gives both its bodies the same impulse. Not here: how the base moves (`drive`).
+
 mod frame;
+mod kinematics;
+mod laws;
+mod looks;
 mod passage;
 mod pieces;
 mod polynomial;
+mod push;
+mod search;
 mod state;
 mod step;
+mod time_step;
 
-use crate::drive::Drive;
-use crate::engine::molecular_dynamics::{Breakdown, Setup};
-use crate::engine::molecular_dynamics::neighbours::{CellGrid, Cloud};
-use crate::engine::molecular_dynamics::{Pair, AtWall};
+use crate::drive::{Drive, Motion};
+use crate::error::are_sane;
 use crate::geometry::Disk;
 
+use super::molecular_dynamics::{Breakdown, Setup};
+
 pub use state::{Contact, Kinematics, Phase, State};
-use passage::Laws;
-use step::{Disks, Scenery, Work};
+pub use time_step::steps_for;
 
+use kinematics::Disks;
+use laws::Laws;
+use search::Search;
+use step::{Scenery, Work};
+
+/// Largest number of time steps that one call may ask for.
+const MOST_STEPS: f64 = 1e11;
+
+/// Grid points closer than this fraction of a time step to the end count as the end.
 const SNAP: f64 = 1e-6;
-const MARGIN: f64 = 0.15;
 
+/// The engine: motion of the base D.
 #[derive(Debug, Clone)]
 pub struct LocatedDynamics<D> {
     setup: Setup,
     laws: Laws,
     radii: Vec<f64>,
+    /// 1/m, 1/m, 1/I of each disk.
     inverse_masses: Vec<[f64; 3]>,
     smallest_radius: f64,
     state: State<D>,
+    /// The state at the last time that was asked for, if that is no grid point.
     between: Option<State<D>>,
+    backup: State<D>,
     work: Work,
-    grid: CellGrid,
-    found: Vec<Pair>,
-    found_at_walls: Vec<AtWall>,
-    pub passes: u32,
-    pub events: u64,
+    search: Search,
 }
 
 impl<D: Drive> LocatedDynamics<D> {
+    /// Disks at rest where they are, at `setup.start_time`, under the drive.
     pub fn new(setup: Setup, disks: &[Disk], drive: D) -> Self {
         let radii: Vec<f64> = disks.iter().map(|disk| disk.radius).collect();
-        let smallest_radius = radii.iter().copied().fold(f64::INFINITY, f64::min);
         let inverse_masses = disks.iter().zip(&setup.masses).map(|(disk, mass)| {
-            [1.0 / mass, 1.0 / mass, 2.0 / (mass * disk.radius * disk.radius)]
-        }).collect();
+            let inertia = 0.5 * mass * disk.radius * disk.radius;
+            [1.0 / mass, 1.0 / mass, 1.0 / inertia]
+        });
         let state = State {
             steps: 0,
             base: drive.motion(setup.start_time),
@@ -59,38 +84,98 @@ impl<D: Drive> LocatedDynamics<D> {
             energy_input: 0.0,
             energy_lost: 0.0,
             contacts: 0,
+            changes: 0,
         };
-        let laws = Laws::new(setup.laws.normal, setup.laws.skin);
         let mut engine = Self {
-            setup, laws, radii, inverse_masses, smallest_radius, state, between: None, work: Work::default(),
-            grid: CellGrid::default(), found: Vec::new(), found_at_walls: Vec::new(), passes: 2, events: 0,
+            laws: Laws::new(setup.laws.normal, setup.laws.skin),
+            inverse_masses: inverse_masses.collect(),
+            smallest_radius: radii.iter().copied().fold(f64::INFINITY, f64::min),
+            radii,
+            setup,
+            backup: state.clone(),
+            between: None,
+            state,
+            work: Work::default(),
+            search: Search::default(),
         };
         engine.set_motion(|_| ());
         engine
     }
 
+    /// Changes places and rates by hand (initial states of tests and studies) and starts afresh from there, with the
+    /// skins of overlapping bodies at rest.
     pub fn set_motion(&mut self, change: impl FnOnce(&mut State<D>)) {
         change(&mut self.state);
         self.state.pairs.clear();
         self.state.at_walls.clear();
-        self.search(MARGIN * self.smallest_radius);
-        let scenery = Scenery {
-            laws: &self.laws,
-            radii: &self.radii,
-            inverse_masses: &self.inverse_masses,
-            walls: &self.setup.walls,
-            gravity: self.setup.gravity,
-        };
-        let state = &mut self.state;
-        let disks = Disks { places: &state.places, rates: &state.rates };
-        step::close_overlapping(&scenery, disks, &mut state.pairs, &mut state.at_walls, &state.base);
+        let margin = search::MARGIN * self.smallest_radius;
+        self.search.renew(&mut self.state, &self.radii, &self.setup.walls, margin);
+        let (mut pairs, mut at_walls) = self.take_contacts();
+        step::close_overlapping(&self.scenery([self.state.base; 2], 0.0), &mut pairs, &mut at_walls);
+        let overlapping = pairs.iter().chain(&at_walls).filter(|contact| contact.phase != Phase::Open);
+        self.state.contacts = overlapping.count() as u32;
+        (self.state.pairs, self.state.at_walls) = (pairs, at_walls);
         self.between = None;
     }
 
+    /// Advances to `end_time` \[s\]. On a breakdown the state is as before the call.
+    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
+        let elapsed = (end_time - self.setup.start_time) / self.setup.time_step;
+        let target = (elapsed + SNAP).floor().max(0.0);
+        let steps = target - self.state.steps as f64;
+        if steps > MOST_STEPS {
+            let time = self.time();
+            return Err(Breakdown::TooManySteps { time, steps });
+        }
+        self.backup.clone_from(&self.state);
+        let outcome = self
+            .run_to(target as u64)
+            .and_then(|()| self.look(end_time))
+            .and_then(|()| self.check_finite(end_time));
+        if outcome.is_err() {
+            std::mem::swap(&mut self.state, &mut self.backup);
+        }
+        outcome
+    }
+
+    /// The state at the time last asked for.
     pub fn now(&self) -> &State<D> {
         self.between.as_ref().unwrap_or(&self.state)
     }
 
+    /// The state on the time grid: all that the future depends on.
+    pub fn state(&self) -> &State<D> {
+        &self.state
+    }
+
+    /// Continues from `state`, seen at `time` \[s\]. On a breakdown the engine is as before the call.
+    pub fn restore(&mut self, state: &State<D>, time: f64) -> Result<(), Breakdown> {
+        let mut former = std::mem::replace(&mut self.state, state.clone());
+        let former_look = self.between.clone();
+        let outcome = self.look(time).and_then(|()| self.check_finite(time));
+        if outcome.is_err() {
+            std::mem::swap(&mut self.state, &mut former);
+            self.between = former_look;
+        }
+        outcome
+    }
+
+    /// The drive, to be aimed at new inputs.
+    pub fn drive_mut(&mut self) -> &mut D {
+        &mut self.state.drive
+    }
+
+    /// What stays as it is.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// Radii \[m\].
+    pub fn radii(&self) -> &[f64] {
+        &self.radii
+    }
+
+    /// Time of the present grid point \[s\].
     pub fn time(&self) -> f64 {
         self.time_of(self.state.steps)
     }
@@ -99,101 +184,106 @@ impl<D: Drive> LocatedDynamics<D> {
         self.setup.start_time + steps as f64 * self.setup.time_step
     }
 
-    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
-        let target = ((end_time - self.setup.start_time) / self.setup.time_step + SNAP).floor().max(0.0) as u64;
+    fn run_to(&mut self, target: u64) -> Result<(), Breakdown> {
         while self.state.steps < target {
             self.step(self.setup.time_step, self.time_of(self.state.steps + 1))?;
             self.state.steps += 1;
         }
-        let ahead = end_time - self.time();
+        Ok(())
+    }
+
+    /// Takes one short step on a copy if `time` lies between grid points; else there is nothing to copy.
+    fn look(&mut self, time: f64) -> Result<(), Breakdown> {
+        let ahead = time - self.time();
         if ahead.abs() <= SNAP * self.setup.time_step {
             self.between = None;
             return Ok(());
         }
-        let mut copy = self.state.clone();
+        let mut copy = self.between.take().unwrap_or_else(|| self.state.clone());
+        copy.clone_from(&self.state);
         std::mem::swap(&mut self.state, &mut copy);
-        let outcome = self.step(ahead, end_time);
+        let outcome = self.step(ahead, time);
         std::mem::swap(&mut self.state, &mut copy);
         self.between = Some(copy);
         outcome
     }
 
+    /// One step of length `step` \[s\] that ends at `time` \[s\].
     fn step(&mut self, step: f64, time: f64) -> Result<(), Breakdown> {
         let base = [self.state.base, self.state.drive.motion(time)];
-        self.search_if_due(step, time, (base[1].displacement - self.state.searched_base).abs())?;
-        let scenery = Scenery {
-            laws: &self.laws,
-            radii: &self.radii,
-            inverse_masses: &self.inverse_masses,
-            walls: &self.setup.walls,
-            gravity: self.setup.gravity,
-        };
-        let state = &mut self.state;
-        let disks = Disks { places: &state.places, rates: &state.rates };
-        self.work.predict(&scenery, disks, &state.pairs, &state.at_walls, step);
-        for pass in 0..self.passes {
-            self.work.refine(&scenery, disks, (&state.pairs, &state.at_walls), base, (step, pass == 0));
-        }
-        self.events += u64::from(self.work.tally.events);
-        let tally = self.work.tally;
-        let allowed = 0.5 * self.smallest_radius;
+        self.search_if_due(step, time, base[1].displacement)?;
+        let mut work = std::mem::take(&mut self.work);
+        let scenery = self.scenery(base, step);
+        let (pairs, at_walls) = (&self.state.pairs, &self.state.at_walls);
+        work.predict(&scenery, pairs, at_walls);
+        work.refine::<false>(&scenery, pairs, at_walls);
+        work.refine::<true>(&scenery, pairs, at_walls);
+        self.work = work;
+        self.take_over(base[1], time)
+    }
+
+    /// Makes the end of the step the state.
+    fn take_over(&mut self, base: Motion, time: f64) -> Result<(), Breakdown> {
+        let (state, work) = (&mut self.state, &mut self.work);
+        let (tally, allowed) = (work.tally, 0.5 * self.smallest_radius);
         if tally.deepest > allowed {
-            return Err(Breakdown::TooDeep { time, overlap: tally.deepest, allowed });
+            return Err(Breakdown::TooDeep {
+                time,
+                overlap: tally.deepest,
+                allowed,
+            });
         }
-        self.work.commit(&self.radii, &mut state.pairs, &mut state.at_walls);
-        std::mem::swap(&mut state.places, &mut self.work.places);
-        std::mem::swap(&mut state.rates, &mut self.work.rates);
-        for (sum, new) in state.wall_impulses.iter_mut().zip(&self.work.wall_impulses) {
+        work.commit(&mut state.pairs, &mut state.at_walls);
+        std::mem::swap(&mut state.places, &mut work.places);
+        std::mem::swap(&mut state.rates, &mut work.rates);
+        for (sum, new) in state.wall_impulses.iter_mut().zip(&work.wall_impulses) {
             sum[0] += new[0];
             sum[1] += new[1];
         }
-        state.base = base[1];
+        state.base = base;
         state.energy_input += tally.work;
         state.energy_lost += tally.lost;
         state.contacts = tally.contacts;
+        state.changes += u64::from(tally.changes);
         Ok(())
     }
 
-    fn search_if_due(&mut self, step: f64, time: f64, base_moved: f64) -> Result<(), Breakdown> {
-        let state = &self.state;
-        let (mut farthest, mut fastest) = (0.0_f64, 0.0_f64);
-        for ((now, then), rate) in state.places.iter().zip(&state.searched).zip(&state.rates) {
-            let (dx, dy) = (now[0] + step * rate[0] - then[0], now[1] + step * rate[1] - then[1]);
-            farthest = farthest.max(dx * dx + dy * dy);
-            fastest = fastest.max(rate[0] * rate[0] + rate[1] * rate[1]);
+    fn scenery(&self, base: [Motion; 2], step: f64) -> Scenery<'_> {
+        Scenery {
+            laws: &self.laws,
+            inverse_masses: &self.inverse_masses,
+            walls: &self.setup.walls,
+            gravity: self.setup.gravity,
+            start: Disks {
+                places: &self.state.places,
+                rates: &self.state.rates,
+                radii: &self.radii,
+            },
+            base,
+            step,
         }
-        let limit = 0.45 * state.margin;
-        if farthest < limit * limit && base_moved < limit {
-            return Ok(());
-        }
-        let distance = step * fastest.sqrt();
-        let allowed = 0.5 * self.smallest_radius;
-        if distance > allowed {
-            return Err(Breakdown::TooFast { time, distance, allowed });
-        }
-        self.search((MARGIN * self.smallest_radius).max(4.0 * distance));
-        Ok(())
     }
 
-    fn search(&mut self, margin: f64) {
+    fn take_contacts(&mut self) -> (Vec<Contact>, Vec<Contact>) {
         let state = &mut self.state;
-        state.margin = margin;
-        state.searched.clone_from(&state.places);
-        state.searched_base = state.base.displacement;
-        let cloud = Cloud { places: &state.searched, radii: &self.radii, margin };
-        self.grid.find_pairs(cloud, &mut self.found);
-        self.grid.find_at_walls(cloud, &self.setup.walls, state.searched_base, &mut self.found_at_walls);
-        keep(&mut state.pairs, self.found.iter().map(|pair| (pair.first, pair.second)));
-        keep(&mut state.at_walls, self.found_at_walls.iter().map(|near| (near.disk, near.wall)));
+        (std::mem::take(&mut state.pairs), std::mem::take(&mut state.at_walls))
     }
-}
 
-fn keep(contacts: &mut Vec<Contact>, keys: impl Iterator<Item = (u32, u32)>) {
-    let old = std::mem::take(contacts);
-    let mut old = old.iter().filter(|contact| contact.phase != Phase::Open).peekable();
-    for key in keys {
-        while old.next_if(|contact| (contact.first, contact.second) < key).is_some() {}
-        let kept = old.next_if(|contact| (contact.first, contact.second) == key);
-        contacts.push(kept.copied().unwrap_or(Contact::open(key.0, key.1)));
+    /// Comparisons with what is no number are false and trip no other check.
+    fn check_finite(&self, time: f64) -> Result<(), Breakdown> {
+        let now = self.now();
+        let Motion {
+            displacement,
+            velocity,
+            acceleration,
+        } = now.base;
+        let motion = now.places.iter().chain(&now.rates).flatten().copied();
+        let impulses = now.wall_impulses.iter().flatten().copied();
+        let scalars = [displacement, velocity, acceleration, now.energy_input, now.energy_lost];
+        if are_sane(motion.chain(impulses).chain(scalars)) {
+            Ok(())
+        } else {
+            Err(Breakdown::NotFinite { time })
+        }
     }
 }

@@ -1,103 +1,12 @@
 //! One contact over one step: its relative motion at both ends in, its impulse on the two bodies out.
 //!
-//! The motion between the ends is Hermite's cubic. While the contact stays in its phase the force is integrated along it
+//! Between the ends the motion is Hermite's cubic. While the contact stays in its phase the force is integrated along it
 //! by Gauss's rule with two nodes; the step in which the phase changes is left to `pieces`.
 
-use crate::contact::{ElasticSkin, LinearDashpot};
-
 use super::frame::{Cubic, Frame};
+use super::laws::Laws;
+use super::push::{At, Forces, Own, Push};
 use super::state::{Kinematics, Phase};
-
-/// Contact laws with the constants that the steps need.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Laws {
-    /// Normal force.
-    pub normal: LinearDashpot,
-    /// Tangential force.
-    pub skin: ElasticSkin,
-    /// mu / k_t: stretch of the slipping skin over the normal force; 0 without friction \[m/N\].
-    pub slip_compliance: f64,
-}
-
-impl Laws {
-    /// Constants of these laws.
-    pub fn new(normal: LinearDashpot, skin: ElasticSkin) -> Self {
-        let has_skin = skin.stiffness > 0.0 && skin.friction > 0.0;
-        Self {
-            normal,
-            skin,
-            slip_compliance: if has_skin { skin.friction / skin.stiffness } else { 0.0 },
-        }
-    }
-
-    /// Whether there are tangential forces.
-    #[inline]
-    pub fn has_skin(&self) -> bool {
-        self.slip_compliance > 0.0
-    }
-
-    /// Normal force \[N\] before the cut-off at zero.
-    #[inline(always)]
-    pub fn normal_force(&self, overlap: f64, closing: f64) -> f64 {
-        self.normal.stiffness * overlap + self.normal.damping * closing
-    }
-}
-
-/// Integrals of a contact's own force over a step: impulse and first moment about the end of the step.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Own {
-    /// Of the normal force \[N.s\], \[N.s2\].
-    pub normal: [f64; 2],
-    /// Of the tangential force \[N.s\], \[N.s2\].
-    pub tangential: [f64; 2],
-}
-
-/// What a contact gives to its first body in one step.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Push {
-    /// Impulse on the centre \[N.s\].
-    pub impulse: [f64; 2],
-    /// First moment of the force about the end of the step \[N.s2\].
-    pub moment: [f64; 2],
-    /// The same in the frame of the contact.
-    pub own: Own,
-    /// Energy lost in the dashpot \[J\].
-    pub dissipated: f64,
-    /// Energy lost by slip \[J\].
-    pub slip_heat: f64,
-    /// Work of the wall's motion \[J\].
-    pub work: f64,
-}
-
-/// Forces at one node of a quadrature.
-pub struct Forces {
-    /// N \[N\].
-    pub normal: f64,
-    /// tau \[N\], along the normal turned clockwise by a right angle.
-    pub tangential: f64,
-    /// delta \[m\].
-    pub overlap: f64,
-}
-
-impl Push {
-    /// Adds a node that stands for `span` \[s\] and lies `ahead` \[s\] before the end of the step, a fraction x into it.
-    #[inline(always)]
-    pub fn add<F: Frame>(&mut self, frame: &F, forces: &Forces, span: f64, ahead: f64, x: (&Cubic, &Cubic)) {
-        let [nx, ny] = frame.normal(x.0);
-        let (normal, tangential) = (span * forces.normal, span * forces.tangential);
-        let sideways = tangential * frame.lever(forces.overlap);
-        let (px, py) = (normal * nx + sideways * ny, normal * ny - sideways * nx);
-        self.impulse[0] += px;
-        self.impulse[1] += py;
-        self.moment[0] += ahead * px;
-        self.moment[1] += ahead * py;
-        self.own.normal[0] += normal;
-        self.own.normal[1] += ahead * normal;
-        self.own.tangential[0] += tangential;
-        self.own.tangential[1] += ahead * tangential;
-        self.work += py * frame.carried(x.1);
-    }
-}
 
 /// What comes of a contact's step.
 #[derive(Debug, Clone, Copy)]
@@ -133,44 +42,32 @@ pub struct Passage<'step, F> {
     pub step: f64,
 }
 
-struct Node {
-    x: f64,
-    value: Cubic,
-    slope: Cubic,
-    bend: Cubic,
-}
+/// Nodes of Gauss's rule, (1 -+ 1/sqrt 3) / 2; each stands for half of the step.
+const GAUSS: [f64; 2] = [0.211_324_865_405_187_12, 0.788_675_134_594_812_9];
+const VALUES: [Cubic; 2] = [Cubic::value(GAUSS[0]), Cubic::value(GAUSS[1])];
+const SLOPES: [Cubic; 2] = [Cubic::slope(GAUSS[0]), Cubic::slope(GAUSS[1])];
+const BENDS: [Cubic; 2] = [Cubic::bend(GAUSS[0]), Cubic::bend(GAUSS[1])];
+const FIRST_BEND: Cubic = Cubic::bend(0.0);
+const LAST_BEND: Cubic = Cubic::bend(1.0);
 
-impl Node {
-    const fn at(x: f64) -> Self {
-        Self {
-            x,
-            value: Cubic::value(x),
-            slope: Cubic::slope(x),
-            bend: Cubic::bend(x),
-        }
-    }
+/// Whether the cubic with these values and rates at the ends of a step cannot rise above zero: its control points, of
+/// which it is a convex combination, are all below.
+#[inline(always)]
+fn stays_below([value, rate]: [f64; 2], [end_value, end_rate]: [f64; 2], step: f64) -> bool {
+    let third = step / 3.0;
+    value <= 0.0 && value + third * rate <= 0.0 && end_value - third * end_rate <= 0.0 && end_value <= 0.0
 }
-
-/// (1 -+ 1/sqrt 3) / 2.
-const GAUSS: [Node; 2] = [Node::at(0.211_324_865_405_187_12), Node::at(0.788_675_134_594_812_9)];
 
 impl<F: Frame> Passage<'_, F> {
-    /// Integrals over the step if the phase does not change in it.
-    #[inline]
-    pub fn within_phase(&self, laws: &Laws) -> Option<Outcome> {
-        let (start, end) = (self.start, self.end);
+    /// Integrals over the step if the phase does not change in it. Energies are summed in the `LAST` pass only.
+    #[inline(always)]
+    pub fn within_phase<const LAST: bool>(&self, laws: &Laws) -> Option<Outcome> {
         match self.phase {
-            Phase::Open => (end.overlap <= 0.0).then(|| self.resting(Phase::Open)),
-            Phase::Unpressed => (laws.normal_force(end.overlap, end.closing) <= 0.0).then(|| {
-                let phase = if end.overlap > 0.0 { Phase::Unpressed } else { Phase::Open };
-                let mut outcome = self.resting(phase);
-                let left = laws.normal.energy(end.overlap.max(0.0));
-                outcome.push.dissipated = laws.normal.energy(start.overlap) - left;
-                outcome
-            }),
-            Phase::Stick => self.sticking(laws),
-            Phase::SlipForward => self.slipping(laws, 1.0),
-            Phase::SlipBackward => self.slipping(laws, -1.0),
+            Phase::Open => self.apart(),
+            Phase::Unpressed => self.unpressed(laws),
+            Phase::Stick => self.sticking::<LAST>(laws),
+            Phase::SlipForward => self.slipping::<LAST>(laws, 1.0),
+            Phase::SlipBackward => self.slipping::<LAST>(laws, -1.0),
         }
     }
 
@@ -181,6 +78,24 @@ impl<F: Frame> Passage<'_, F> {
             closing_rate: 0.0,
             push: Push::default(),
         }
+    }
+
+    fn apart(&self) -> Option<Outcome> {
+        let (start, end) = (self.start, self.end);
+        let apart = stays_below([start.overlap, start.closing], [end.overlap, end.closing], self.step);
+        apart.then(|| self.resting(Phase::Open))
+    }
+
+    fn unpressed(&self, laws: &Laws) -> Option<Outcome> {
+        let (start, end) = (self.start, self.end);
+        if laws.normal_force(end.overlap, end.closing) > 0.0 {
+            return None;
+        }
+        let phase = if end.overlap > 0.0 { Phase::Unpressed } else { Phase::Open };
+        let mut outcome = self.resting(phase);
+        // The spring gives way to nothing.
+        outcome.push.lost = laws.normal.energy(start.overlap) - laws.normal.energy(end.overlap.max(0.0));
+        Some(outcome)
     }
 
     #[inline(always)]
@@ -196,77 +111,120 @@ impl<F: Frame> Passage<'_, F> {
         x.of(from, step * start.sliding, to, step * end.sliding)
     }
 
-    /// Rate of the closing velocity at the end \[m/s2\].
+    /// Rates of the closing velocity at the start and at the end \[m/s2\].
     #[inline(always)]
-    fn end_closing_rate(&self) -> f64 {
-        const END: Cubic = Cubic::bend(1.0);
-        self.overlap(&END) / (self.step * self.step)
+    fn closing_rates(&self) -> [f64; 2] {
+        let square = self.step * self.step;
+        [self.overlap(&FIRST_BEND) / square, self.overlap(&LAST_BEND) / square]
     }
 
     #[inline(always)]
-    fn sticking(&self, laws: &Laws) -> Option<Outcome> {
-        let end = self.end;
-        let end_force = laws.normal_force(end.overlap, end.closing);
-        let end_stretch = end.surface - self.reference;
-        if end_force <= 0.0 || end_stretch.abs() > laws.slip_compliance * end_force {
+    fn at(&self, node: usize) -> At {
+        At {
+            span: 0.5 * self.step,
+            ahead: (1.0 - GAUSS[node]) * self.step,
+            value: VALUES[node],
+            slope: SLOPES[node],
+        }
+    }
+
+    #[inline(always)]
+    fn sticking<const LAST: bool>(&self, laws: &Laws) -> Option<Outcome> {
+        let rates = self.closing_rates();
+        if !self.keeps_sticking(laws, rates) {
             return None;
         }
         let mut push = Push::default();
-        let span = 0.5 * self.step;
-        for node in &GAUSS {
-            let overlap = self.overlap(&node.value);
-            let closing = self.overlap(&node.slope) / self.step;
+        for node in 0..2 {
+            let overlap = self.overlap(&VALUES[node]);
+            let closing = self.overlap(&SLOPES[node]) / self.step;
             let forces = Forces {
                 normal: laws.normal_force(overlap, closing),
-                tangential: laws.skin.force(self.stretch(&node.value)),
+                tangential: laws.skin.force(self.stretch(&VALUES[node])),
                 overlap,
             };
-            let ahead = (1.0 - node.x) * self.step;
-            push.add(self.frame, &forces, span, ahead, (&node.value, &node.slope));
-            push.dissipated += span * laws.normal.damping * closing * closing;
+            let at = self.at(node);
+            push.add(self.frame, &forces, &at);
+            if LAST {
+                push.lost += at.span * laws.normal.damping * closing * closing;
+            }
         }
         Some(Outcome {
             phase: Phase::Stick,
             reference: self.reference,
-            closing_rate: self.end_closing_rate(),
+            closing_rate: rates[1],
             push,
         })
     }
 
+    /// Neither end of Amonton's limits is passed on the way, nor is the force cut off.
     #[inline(always)]
-    fn slipping(&self, laws: &Laws, sense: f64) -> Option<Outcome> {
+    fn keeps_sticking(&self, laws: &Laws, closing_rates: [f64; 2]) -> bool {
+        let ends = [self.start, self.end];
+        let limit = |i: usize| {
+            [
+                laws.slip_compliance * laws.normal_force(ends[i].overlap, ends[i].closing),
+                laws.slip_compliance * laws.normal_force(ends[i].closing, closing_rates[i]),
+            ]
+        };
+        let (limits, stretches) = (
+            [limit(0), limit(1)],
+            [0, 1].map(|i: usize| [ends[i].surface - self.reference, ends[i].sliding]),
+        );
+        let holds = |sense: f64| {
+            let beyond = [0, 1].map(|i: usize| [0, 1].map(|d: usize| sense * stretches[i][d] - limits[i][d]));
+            stays_below(beyond[0], beyond[1], self.step)
+        };
+        laws.normal_force(self.end.overlap, self.end.closing) > 0.0 && holds(1.0) && holds(-1.0)
+    }
+
+    #[inline(always)]
+    fn slipping<const LAST: bool>(&self, laws: &Laws, sense: f64) -> Option<Outcome> {
         let end = self.end;
         let end_force = laws.normal_force(end.overlap, end.closing);
-        let closing_rate = self.end_closing_rate();
-        let end_slip = sense * end.sliding - laws.slip_compliance * laws.normal_force(end.closing, closing_rate);
-        if end_force <= 0.0 || (laws.has_skin() && end_slip <= 0.0) {
+        let rates = self.closing_rates();
+        if end_force <= 0.0 || (laws.grips() && !self.keeps_slipping(laws, sense, rates)) {
             return None;
         }
         let mut push = Push::default();
-        let span = 0.5 * self.step;
-        for node in &GAUSS {
-            let overlap = self.overlap(&node.value);
-            let closing = self.overlap(&node.slope) / self.step;
+        for node in 0..2 {
+            let overlap = self.overlap(&VALUES[node]);
+            let closing = self.overlap(&SLOPES[node]) / self.step;
             let normal = laws.normal_force(overlap, closing);
-            let limit = if laws.has_skin() { laws.skin.friction * normal } else { 0.0 };
+            let limit = laws.slip_share() * normal;
             let forces = Forces {
                 normal,
                 tangential: -sense * limit,
                 overlap,
             };
-            let ahead = (1.0 - node.x) * self.step;
-            push.add(self.frame, &forces, span, ahead, (&node.value, &node.slope));
-            push.dissipated += span * laws.normal.damping * closing * closing;
-            let bend = self.overlap(&node.bend) / (self.step * self.step);
-            let sliding = self.stretch(&node.slope) / self.step;
-            let slip = sense * sliding - laws.slip_compliance * laws.normal_force(closing, bend);
-            push.slip_heat += span * limit * slip;
+            let at = self.at(node);
+            push.add(self.frame, &forces, &at);
+            if LAST {
+                let closing_rate = self.overlap(&BENDS[node]) / (self.step * self.step);
+                let sliding = self.stretch(&SLOPES[node]) / self.step;
+                let slip = sense * sliding - laws.slip_compliance * laws.normal_force(closing, closing_rate);
+                push.lost += at.span * (laws.normal.damping * closing * closing + limit * slip);
+            }
         }
         Some(Outcome {
             phase: self.phase,
             reference: end.surface - sense * laws.slip_compliance * end_force,
-            closing_rate,
+            closing_rate: rates[1],
             push,
         })
+    }
+
+    /// The rate of slip, a parabola in time, stays positive: so do its control points.
+    #[inline(always)]
+    fn keeps_slipping(&self, laws: &Laws, sense: f64, closing_rates: [f64; 2]) -> bool {
+        let (start, end) = (self.start, self.end);
+        let slip = |sliding: f64, closing: f64, closing_rate: f64| {
+            sense * sliding - laws.slip_compliance * laws.normal_force(closing, closing_rate)
+        };
+        let jerk = (closing_rates[1] - closing_rates[0]) / self.step;
+        let sliding_rate = self.stretch(&FIRST_BEND) / (self.step * self.step);
+        let first = slip(start.sliding, start.closing, closing_rates[0]);
+        let rate = slip(sliding_rate, closing_rates[0], jerk);
+        slip(end.sliding, end.closing, closing_rates[1]) > 0.0 && first + 0.5 * self.step * rate > 0.0
     }
 }

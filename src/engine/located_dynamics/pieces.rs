@@ -5,8 +5,10 @@
 //! contact's own law is a linear equation in each phase, solved by its power series, whose roots are the events.
 
 use super::frame::{Cubic, Frame};
-use super::passage::{Forces, Laws, Outcome, Passage, Push};
+use super::laws::Laws;
+use super::passage::{Outcome, Passage};
 use super::polynomial::{LENGTH, Polynomial};
+use super::push::{At, Forces, Push};
 use super::state::Phase;
 
 /// Pieces of one step; what is beyond goes on in the last phase. Grazing events could else alternate without end.
@@ -168,6 +170,7 @@ impl<F: Frame> Passage<'_, F> {
         let (inertia, spin) = (square * self.mobility, square * self.tangential_mobility());
         let (stiffness, damping) = (laws.normal.stiffness, laws.normal.damping / length);
         let pressed = phase.is_pressed();
+        let share = -phase.slip_sense().unwrap_or(0.0) * laws.slip_share();
         for i in 0..LENGTH {
             if i + 1 < LENGTH {
                 force[i] = stiffness * overlap[i] + damping * (i + 1) as f64 * overlap[i + 1];
@@ -179,7 +182,7 @@ impl<F: Frame> Passage<'_, F> {
                         let stretch = surface[i] - if i == 0 { reference } else { 0.0 };
                         (force[i], laws.skin.force(stretch))
                     }
-                    _ => (force[i], -tangent_share(laws, phase) * force[i]),
+                    _ => (force[i], share * force[i]),
                 };
                 let (pull, drag) = if i < 2 { (normal[i], tangential[i]) } else { (0.0, 0.0) };
                 let divisor = ((i + 1) * (i + 2)) as f64;
@@ -208,7 +211,7 @@ impl<F: Frame> Passage<'_, F> {
         }
         if phase == Phase::Unpressed {
             let energy = |x: f64| laws.normal.energy(piece.overlap.at(x).max(0.0));
-            push.dissipated += energy(0.0) - energy(end);
+            push.lost += energy(0.0) - energy(end);
             return;
         }
         let (closing, sliding, force_rate) = (
@@ -225,9 +228,9 @@ impl<F: Frame> Passage<'_, F> {
             let tangential = match phase.slip_sense() {
                 None => laws.skin.force(piece.surface.at(x) - reference),
                 Some(sense) => {
-                    let limit = sense * tangent_share(laws, phase) * normal;
+                    let limit = laws.slip_share() * normal;
                     let slip = sense * sliding.at(x) - laws.slip_compliance * force_rate.at(x);
-                    push.slip_heat += span * limit * slip / piece.length;
+                    push.lost += span * limit * slip / piece.length;
                     -sense * limit
                 }
             };
@@ -237,18 +240,15 @@ impl<F: Frame> Passage<'_, F> {
                 overlap,
             };
             let whole = time / self.step;
-            let at = (Cubic::value(whole), Cubic::slope(whole));
-            push.add(self.frame, &forces, span, self.step - time, (&at.0, &at.1));
-            push.dissipated += span * laws.normal.damping * closing * closing;
+            let at = At {
+                span,
+                ahead: self.step - time,
+                value: Cubic::value(whole),
+                slope: Cubic::slope(whole),
+            };
+            push.add(self.frame, &forces, &at);
+            push.lost += span * laws.normal.damping * closing * closing;
         }
-    }
-}
-
-/// Tangential over normal force while slipping, with the sign of the stretch.
-fn tangent_share(laws: &Laws, phase: Phase) -> f64 {
-    match phase.slip_sense() {
-        Some(sense) if laws.has_skin() => sense * laws.skin.friction,
-        _ => 0.0,
     }
 }
 
@@ -284,7 +284,7 @@ impl Piece {
             }
             Phase::SlipForward | Phase::SlipBackward => {
                 let sense = phase.slip_sense()?;
-                let hold = if laws.has_skin() {
+                let hold = if laws.grips() {
                     let slip = self.surface.mixed(-sense, &self.force, laws.slip_compliance).derivative();
                     when(slip.first_rise(zeros.slip), Event::Hold)
                 } else {
@@ -303,7 +303,7 @@ fn next_phase(laws: &Laws, event: Event, phase: Phase, point: &mut Point, refere
     let starts = |point: &Point, from_zero: bool| {
         let force = usize::from(from_zero);
         let outrun = point.sliding.abs() > laws.slip_compliance * laws.normal.stiffness * point.closing;
-        if !laws.has_skin() || (from_zero && outrun) {
+        if !laws.grips() || (from_zero && outrun) {
             (slips(point.sliding), point.surface, Zeros { force, ..Zeros::default() })
         } else {
             let zeros = Zeros {

@@ -70,8 +70,8 @@ pub struct Contact {
     /// lambda* \[m\].
     pub reference: f64,
     /// Relative motion at the grid point, while overlapping.
-    pub start: Kinematics,
-    /// Rate of `start.closing` \[m/s2\].
+    pub kinematics: Kinematics,
+    /// Rate of `kinematics.closing` \[m/s2\].
     pub closing_rate: f64,
 }
 
@@ -84,7 +84,7 @@ impl Contact {
             phase: Phase::Open,
             direction: [0.0; 2],
             reference: 0.0,
-            start: Kinematics::default(),
+            kinematics: Kinematics::default(),
             closing_rate: 0.0,
         }
     }
@@ -121,6 +121,8 @@ pub struct State<D> {
     pub energy_lost: f64,
     /// Overlapping contacts now.
     pub contacts: u32,
+    /// Changes of phase so far: steps of contacts that were taken in pieces.
+    pub changes: u64,
 }
 
 impl<D: Clone> Clone for State<D> {
@@ -147,8 +149,9 @@ impl<D: Clone> Clone for State<D> {
         self.at_walls.clone_from(&source.at_walls);
         self.searched.clone_from(&source.searched);
         let State { steps, base, searched_base, margin, .. } = *source;
-        let State { energy_input, energy_lost, contacts, .. } = *source;
+        let State { energy_input, energy_lost, contacts, changes, .. } = *source;
         (self.steps, self.base, self.searched_base, self.margin) = (steps, base, searched_base, margin);
-        (self.energy_input, self.energy_lost, self.contacts) = (energy_input, energy_lost, contacts);
+        (self.energy_input, self.energy_lost) = (energy_input, energy_lost);
+        (self.contacts, self.changes) = (contacts, changes);
     }
 }

@@ -74,6 +74,7 @@ impl<D: Drive> LocatedDynamics<D> {
             [
                 state.places.len(),
                 state.rates.len(),
+                state.remainders.len(),
                 state.wall_impulses.len(),
                 state.searched.len(),
             ]
@@ -96,6 +97,7 @@ impl<D: Drive> LocatedDynamics<D> {
             && ahead <= 2.0 * step + rounding
             && state.margin > 0.0
             && are_sane(state.searched.iter().flatten().copied())
+            && are_sane(state.remainders.iter().flatten().flatten().copied())
             && are_sane([state.searched_base, state.margin])
     }
 }

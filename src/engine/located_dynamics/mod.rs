@@ -31,7 +31,7 @@ use crate::geometry::Disk;
 use super::molecular_dynamics::{Breakdown, Setup};
 
 pub use state::{Contact, Kinematics, Phase, State};
-pub use time_step::steps_for;
+pub use time_step::limits;
 
 use kinematics::Disks;
 use laws::Laws;
@@ -75,6 +75,7 @@ impl<D: Drive> LocatedDynamics<D> {
             drive,
             places: disks.iter().map(|disk| [disk.x, disk.y, 0.0]).collect(),
             rates: vec![[0.0; 3]; disks.len()],
+            remainders: vec![[[0.0; 3]; 2]; disks.len()],
             wall_impulses: vec![[0.0; 2]; setup.walls.len()],
             pairs: Vec::new(),
             at_walls: Vec::new(),
@@ -106,6 +107,7 @@ impl<D: Drive> LocatedDynamics<D> {
     /// skins of overlapping bodies at rest.
     pub fn set_motion(&mut self, change: impl FnOnce(&mut State<D>)) {
         change(&mut self.state);
+        self.state.remainders.fill([[0.0; 3]; 2]);
         self.state.pairs.clear();
         self.state.at_walls.clear();
         let margin = search::MARGIN * self.smallest_radius;
@@ -236,6 +238,7 @@ impl<D: Drive> LocatedDynamics<D> {
         work.commit(&mut state.pairs, &mut state.at_walls);
         std::mem::swap(&mut state.places, &mut work.places);
         std::mem::swap(&mut state.rates, &mut work.rates);
+        std::mem::swap(&mut state.remainders, &mut work.remainders);
         for (sum, new) in state.wall_impulses.iter_mut().zip(&work.wall_impulses) {
             sum[0] += new[0];
             sum[1] += new[1];
@@ -260,6 +263,7 @@ impl<D: Drive> LocatedDynamics<D> {
                 radii: &self.radii,
             },
             base,
+            remainders: &self.state.remainders,
             step,
         }
     }

@@ -103,6 +103,8 @@ pub struct State<D> {
     pub places: Vec<[f64; 3]>,
     /// Their rates.
     pub rates: Vec<[f64; 3]>,
+    /// What places and rates are short of by rounding.
+    pub remainders: Vec<[[f64; 3]; 2]>,
     /// Impulse (x, y) \[N.s\] that each wall has given.
     pub wall_impulses: Vec<[f64; 2]>,
     /// Disks that may touch before the next search.
@@ -131,6 +133,7 @@ impl<D: Clone> Clone for State<D> {
             drive: self.drive.clone(),
             places: self.places.clone(),
             rates: self.rates.clone(),
+            remainders: self.remainders.clone(),
             wall_impulses: self.wall_impulses.clone(),
             pairs: self.pairs.clone(),
             at_walls: self.at_walls.clone(),
@@ -144,6 +147,7 @@ impl<D: Clone> Clone for State<D> {
         self.drive.clone_from(&source.drive);
         self.places.clone_from(&source.places);
         self.rates.clone_from(&source.rates);
+        self.remainders.clone_from(&source.remainders);
         self.wall_impulses.clone_from(&source.wall_impulses);
         self.pairs.clone_from(&source.pairs);
         self.at_walls.clone_from(&source.at_walls);

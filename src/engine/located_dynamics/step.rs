@@ -25,6 +25,8 @@ pub struct Scenery<'engine> {
     pub start: Disks<'engine>,
     /// Base at the start and at the end.
     pub base: [Motion; 2],
+    /// What places and rates at the start are short of by rounding.
+    pub remainders: &'engine [[[f64; 3]; 2]],
     /// Length of the step \[s\].
     pub step: f64,
 }
@@ -62,6 +64,8 @@ pub struct Work {
     pub places: Vec<[f64; 3]>,
     /// Rates at the end.
     pub rates: Vec<[f64; 3]>,
+    /// What both are short of by rounding.
+    pub remainders: Vec<[[f64; 3]; 2]>,
     /// Impulses of the walls in this step.
     pub wall_impulses: Vec<[f64; 2]>,
     pair_ends: Vec<End>,
@@ -141,21 +145,35 @@ impl Work {
         self.wall_impulses.resize(scenery.walls.len(), [0.0; 2]);
     }
 
-    /// Places and rates at the end from impulses and moments.
+    /// Places and rates at the end from impulses and moments. The sums are compensated: equal steps in a row would else
+    /// all be rounded the same way, and short steps drift by half a unit in the last place each.
     fn correct(&mut self, scenery: &Scenery<'_>) {
         self.places.clear();
         self.rates.clear();
+        self.remainders.clear();
         let Scenery { step, start, .. } = *scenery;
-        let fall = scenery.gravity * step;
-        let disks = start.places.iter().zip(start.rates);
-        for ((place, rate), (sums, inverse)) in disks.zip(self.sums.iter().zip(scenery.inverse_masses)) {
-            let [impulse, moment] = sums;
-            let moved = |axis: usize| place[axis] + (step * rate[axis] + moment[axis] * inverse[axis]);
-            let sped = |axis: usize| rate[axis] + impulse[axis] * inverse[axis];
-            self.places.push([moved(0), moved(1) - 0.5 * step * fall, moved(2)]);
-            self.rates.push([sped(0), sped(1) - fall, sped(2)]);
+        let (drop, fall) = ([0.0, 0.5 * step * step * scenery.gravity, 0.0], [0.0, step * scenery.gravity, 0.0]);
+        let disks = start.places.iter().zip(start.rates).zip(scenery.remainders);
+        let sums = self.sums.iter().zip(scenery.inverse_masses);
+        for (((place, rate), [short_place, short_rate]), ([impulse, moment], inverse)) in disks.zip(sums) {
+            let moved: [(f64, f64); 3] = std::array::from_fn(|i| {
+                let exact_rate = step * rate[i] + step * short_rate[i];
+                compensated(place[i], short_place[i] + (moment[i] * inverse[i] - drop[i]) + exact_rate)
+            });
+            let sped: [(f64, f64); 3] =
+                std::array::from_fn(|i| compensated(rate[i], short_rate[i] + (impulse[i] * inverse[i] - fall[i])));
+            self.places.push(moved.map(|(sum, _)| sum));
+            self.rates.push(sped.map(|(sum, _)| sum));
+            self.remainders.push([moved.map(|(_, short)| short), sped.map(|(_, short)| short)]);
         }
     }
+}
+
+/// Sum of two numbers, the first the larger or near it, and what rounding took from it (Kahan 1965).
+#[inline(always)]
+fn compensated(sum: f64, term: f64) -> (f64, f64) {
+    let next = sum + term;
+    (next, term - (next - sum))
 }
 
 /// Bodies that overlap at the start of a run have just touched: their skins are not stretched.

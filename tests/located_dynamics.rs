@@ -99,7 +99,7 @@ fn impacts_converge_at_fourth_order() {
         let text = |part: usize| errors.map(|error| format!("{:.1e}", error[part])).join(" ");
         println!("{name:13} 10 to 160 steps a contact: e_n {}, u_t' {}", text(0), text(1));
         for part in 0..2 {
-            let order = order(errors[1][part], errors[4][part], 8.0);
+            let order = order(errors[2][part], errors[4][part], 4.0);
             assert!(order > 3.6, "{name}: order {order:.2} of {}", text(part));
             assert!(errors[3][part] < 2e-8, "{name}: {}", text(part));
         }
@@ -109,7 +109,12 @@ fn impacts_converge_at_fourth_order() {
 /// The time step that a tolerance chooses has an error within a factor of 3 of it, over five decades and more.
 #[test]
 fn impacts_keep_the_tolerance() {
-    let throws = [[0.02, -0.3, 0.0], [0.05, -0.3, 2.0], [0.5, -0.2, 0.0], [0.2, -0.2, -3.0]];
+    let throws = [
+        [0.02, -0.3, 0.0],
+        [0.05, -0.3, 2.0],
+        [0.5, -0.2, 0.0],
+        [0.2, -0.2, -3.0],
+    ];
     // The disk and the wall: an infinitely heavy partner.
     let masses = [mass(RADIUS), f64::INFINITY];
     for tolerance in [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
@@ -117,8 +122,14 @@ fn impacts_keep_the_tolerance() {
         let step = limits(&laws, &masses, None, tolerance).default;
         let errors = throws.map(|velocity| impact_errors(laws, velocity, step).into_iter().fold(0.0, f64::max));
         let error = (errors.iter().map(|error| error * error).sum::<f64>() / throws.len() as f64).sqrt();
-        println!("tolerance {tolerance:.0e}: step {step:.2e} s, error {error:.2e}, ratio {:.2}", error / tolerance);
-        assert!(error < 3.0 * tolerance && error > tolerance / 3.0, "{tolerance:e}: {error:e}");
+        println!(
+            "tolerance {tolerance:.0e}: step {step:.2e} s, error {error:.2e}, ratio {:.2}",
+            error / tolerance
+        );
+        assert!(
+            error < 3.0 * tolerance && error > tolerance / 3.0,
+            "{tolerance:e}: {error:e}"
+        );
     }
 }
 
@@ -184,7 +195,8 @@ fn free_collisions_keep_momentum_and_angular_momentum() {
     };
     let errors = [8e-5, 4e-5, 2e-5, 1e-5].map(spin_error);
     println!("relative change of angular momentum at 80, 40, 20, 10 us: {errors:?}");
-    assert!(errors[0] < 1e-4 && errors[3] < 1e-8, "{errors:?}");
+    let order = order(errors[0], errors[3], 8.0);
+    assert!(order > 3.5 && errors[3] < 1e-10, "{errors:?}, order {order}");
 }
 
 /// y = -g t^2 / 2, whatever the grid and wherever one looks; and a disk at rest on a plane stays there.
@@ -206,7 +218,11 @@ fn free_fall_and_rest_are_exact() {
         assert!((rate[1] + 9.8 * look).abs() < 1e-13);
     }
     let height = RADIUS - mass(RADIUS) * 9.8 / 1e4;
-    let mut resting = LocatedDynamics::new(setup(vec![Wall::vibrating_floor()]), &[disk(0.0, height, RADIUS)], at_rest());
+    let mut resting = LocatedDynamics::new(
+        setup(vec![Wall::vibrating_floor()]),
+        &[disk(0.0, height, RADIUS)],
+        at_rest(),
+    );
     resting.advance_to(6.0).unwrap();
     assert!((resting.now().places[0][1] - height).abs() < 1e-15);
     assert_eq!(resting.now().changes, 0);
@@ -227,7 +243,10 @@ fn lasting_contact_follows_the_driven_oscillator() {
     let omega = std::f64::consts::TAU * frequency;
     let (re, im) = (natural * natural - omega * omega, 2.0 * rate * omega);
     let (top_re, top_im, modulus) = (natural * natural, im, re * re + im * im);
-    let (c_re, c_im) = ((top_re * re + top_im * im) / modulus, (top_im * re - top_re * im) / modulus);
+    let (c_re, c_im) = (
+        (top_re * re + top_im * im) / modulus,
+        (top_im * re - top_re * im) / modulus,
+    );
     let steady = |t: f64| amplitude * (c_re * (omega * t).sin() + c_im * (omega * t).cos());
     let steady_rate = |t: f64| amplitude * omega * (c_re * (omega * t).cos() - c_im * (omega * t).sin());
     let (y0, v0) = (-steady(0.0), -steady_rate(0.0));

@@ -51,9 +51,7 @@ pub trait Frame {
 #[derive(Debug, Clone, Copy)]
 pub struct Turning {
     normals: [[f64; 2]; 4],
-    start_overlap: f64,
-    start_lever: f64,
-    lever_slope: f64,
+    reach: f64,
 }
 
 impl Turning {
@@ -66,10 +64,7 @@ impl Turning {
         };
         Self {
             normals: [start.normal, rate(start), end.normal, rate(end)],
-            start_overlap: start.overlap,
-            start_lever: start.lever,
-            // 1 / r is convex: this line in the overlap is exact at both ends.
-            lever_slope: start.lever * end.lever / reach,
+            reach,
         }
     }
 }
@@ -90,7 +85,7 @@ impl Frame for Turning {
 
     #[inline(always)]
     fn lever(&self, overlap: f64) -> f64 {
-        self.start_lever + self.lever_slope * (overlap - self.start_overlap)
+        self.reach / (self.reach - overlap)
     }
 
     #[inline(always)]

@@ -26,7 +26,12 @@ impl<D: Drive> LocatedDynamics<D> {
     pub fn energies(&self) -> Energies {
         let state = self.now();
         let (mut kinetic, mut height) = (0.0, 0.0);
-        let disks = state.places.iter().zip(&state.rates).zip(&self.radii).zip(&self.setup.masses);
+        let disks = state
+            .places
+            .iter()
+            .zip(&state.rates)
+            .zip(&self.radii)
+            .zip(&self.setup.masses);
         for (((place, [vx, vy, spin]), radius), mass) in disks {
             kinetic += 0.5 * mass * (vx * vx + vy * vy + 0.5 * (radius * spin).powi(2));
             height += mass * place[1];
@@ -41,8 +46,16 @@ impl<D: Drive> LocatedDynamics<D> {
             let wall = &self.setup.walls[contact.second as usize];
             disks.of_wall(contact.first as usize, wall, &state.base).overlap
         };
-        let pairs: f64 = state.pairs.iter().map(|contact| self.elastic(contact, of_pair(contact))).sum();
-        let at_walls: f64 = state.at_walls.iter().map(|contact| self.elastic(contact, of_wall(contact))).sum();
+        let pairs: f64 = state
+            .pairs
+            .iter()
+            .map(|contact| self.elastic(contact, of_pair(contact)))
+            .sum();
+        let at_walls: f64 = state
+            .at_walls
+            .iter()
+            .map(|contact| self.elastic(contact, of_wall(contact)))
+            .sum();
         Energies {
             kinetic,
             potential: self.setup.gravity * height,

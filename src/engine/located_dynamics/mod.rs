@@ -111,10 +111,14 @@ impl<D: Drive> LocatedDynamics<D> {
         self.state.pairs.clear();
         self.state.at_walls.clear();
         let margin = search::MARGIN * self.smallest_radius;
-        self.search.renew(&mut self.state, &self.radii, &self.setup.walls, margin);
+        self.search
+            .renew(&mut self.state, &self.radii, &self.setup.walls, margin);
         let (mut pairs, mut at_walls) = self.take_contacts();
         step::close_overlapping(&self.scenery([self.state.base; 2], 0.0), &mut pairs, &mut at_walls);
-        let overlapping = pairs.iter().chain(&at_walls).filter(|contact| contact.phase != Phase::Open);
+        let overlapping = pairs
+            .iter()
+            .chain(&at_walls)
+            .filter(|contact| contact.phase != Phase::Open);
         self.state.contacts = overlapping.count() as u32;
         (self.state.pairs, self.state.at_walls) = (pairs, at_walls);
         self.between = None;

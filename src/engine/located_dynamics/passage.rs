@@ -91,7 +91,11 @@ impl<F: Frame> Passage<'_, F> {
         if laws.normal_force(end.overlap, end.closing) > 0.0 {
             return None;
         }
-        let phase = if end.overlap > 0.0 { Phase::Unpressed } else { Phase::Open };
+        let phase = if end.overlap > 0.0 {
+            Phase::Unpressed
+        } else {
+            Phase::Open
+        };
         let mut outcome = self.resting(phase);
         // The spring gives way to nothing.
         outcome.push.lost = laws.normal.energy(start.overlap) - laws.normal.energy(end.overlap.max(0.0));

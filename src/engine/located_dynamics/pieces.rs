@@ -269,7 +269,12 @@ impl Piece {
             (a, b) => a.or(b),
         };
         let when = |x: Option<f64>, event: Event| x.map(|x| (x, event));
-        let release = || when(self.force.mixed(-1.0, &self.force, 0.0).first_rise(zeros.force), Event::Release);
+        let release = || {
+            when(
+                self.force.mixed(-1.0, &self.force, 0.0).first_rise(zeros.force),
+                Event::Release,
+            )
+        };
         match phase {
             Phase::Open => when(self.overlap.first_rise(0), Event::Touch),
             Phase::Unpressed => when(self.force.first_rise(zeros.force), Event::Press),
@@ -285,7 +290,10 @@ impl Piece {
             Phase::SlipForward | Phase::SlipBackward => {
                 let sense = phase.slip_sense()?;
                 let hold = if laws.grips() {
-                    let slip = self.surface.mixed(-sense, &self.force, laws.slip_compliance).derivative();
+                    let slip = self
+                        .surface
+                        .mixed(-sense, &self.force, laws.slip_compliance)
+                        .derivative();
                     when(slip.first_rise(zeros.slip), Event::Hold)
                 } else {
                     None
@@ -298,13 +306,26 @@ impl Piece {
 
 /// The phase after an event, lambda* in it, and what vanishes at its start.
 fn next_phase(laws: &Laws, event: Event, phase: Phase, point: &mut Point, reference: f64) -> (Phase, f64, Zeros) {
-    let slips = |sense: f64| if sense > 0.0 { Phase::SlipForward } else { Phase::SlipBackward };
+    let slips = |sense: f64| {
+        if sense > 0.0 {
+            Phase::SlipForward
+        } else {
+            Phase::SlipBackward
+        }
+    };
     // A force that starts from zero holds the skin only if Amonton's limit rises faster than the stretch.
     let starts = |point: &Point, from_zero: bool| {
         let force = usize::from(from_zero);
         let outrun = point.sliding.abs() > laws.slip_compliance * laws.normal.stiffness * point.closing;
         if !laws.grips() || (from_zero && outrun) {
-            (slips(point.sliding), point.surface, Zeros { force, ..Zeros::default() })
+            (
+                slips(point.sliding),
+                point.surface,
+                Zeros {
+                    force,
+                    ..Zeros::default()
+                },
+            )
         } else {
             let zeros = Zeros {
                 force,
@@ -321,7 +342,11 @@ fn next_phase(laws: &Laws, event: Event, phase: Phase, point: &mut Point, refere
         }
         Event::Press => starts(point, true),
         Event::Release => {
-            let phase = if point.overlap > 0.0 { Phase::Unpressed } else { Phase::Open };
+            let phase = if point.overlap > 0.0 {
+                Phase::Unpressed
+            } else {
+                Phase::Open
+            };
             let zeros = Zeros {
                 force: 1,
                 ..Zeros::default()
@@ -334,7 +359,15 @@ fn next_phase(laws: &Laws, event: Event, phase: Phase, point: &mut Point, refere
             let force = laws.normal_force(point.overlap, point.closing);
             let reference = point.surface - sense * laws.slip_compliance * force;
             let yields = if sense > 0.0 { [2, 0] } else { [0, 2] };
-            (Phase::Stick, reference, Zeros { force: 0, yields, slip: 0 })
+            (
+                Phase::Stick,
+                reference,
+                Zeros {
+                    force: 0,
+                    yields,
+                    slip: 0,
+                },
+            )
         }
     }
 }

@@ -48,7 +48,10 @@ impl Search {
 /// Replaces `contacts` by those of `keys`, which are sorted as they are.
 fn keep(contacts: &mut Vec<Contact>, kept: &mut Vec<Contact>, keys: impl Iterator<Item = (u32, u32)>) {
     kept.clear();
-    let mut old = contacts.iter().filter(|contact| contact.phase != Phase::Open).peekable();
+    let mut old = contacts
+        .iter()
+        .filter(|contact| contact.phase != Phase::Open)
+        .peekable();
     for key in keys {
         while old.next_if(|contact| (contact.first, contact.second) < key).is_some() {}
         let same = old.next_if(|contact| (contact.first, contact.second) == key);
@@ -63,10 +66,7 @@ impl<D: Drive> LocatedDynamics<D> {
         let state = &self.state;
         let mut farthest = 0.0;
         for ((now, then), rate) in state.places.iter().zip(&state.searched).zip(&state.rates) {
-            let (dx, dy) = (
-                now[0] + step * rate[0] - then[0],
-                now[1] + step * rate[1] - then[1],
-            );
+            let (dx, dy) = (now[0] + step * rate[0] - then[0], now[1] + step * rate[1] - then[1]);
             let squared = dx * dx + dy * dy;
             farthest = if squared > farthest { squared } else { farthest };
         }
@@ -87,7 +87,8 @@ impl<D: Drive> LocatedDynamics<D> {
         }
         // A list must last for one step at least.
         let margin = (MARGIN * self.smallest_radius).max(4.0 * distance / USED);
-        self.search.renew(&mut self.state, &self.radii, &self.setup.walls, margin);
+        self.search
+            .renew(&mut self.state, &self.radii, &self.setup.walls, margin);
         Ok(())
     }
 }

@@ -152,8 +152,20 @@ impl<D: Clone> Clone for State<D> {
         self.pairs.clone_from(&source.pairs);
         self.at_walls.clone_from(&source.at_walls);
         self.searched.clone_from(&source.searched);
-        let State { steps, base, searched_base, margin, .. } = *source;
-        let State { energy_input, energy_lost, contacts, changes, .. } = *source;
+        let State {
+            steps,
+            base,
+            searched_base,
+            margin,
+            ..
+        } = *source;
+        let State {
+            energy_input,
+            energy_lost,
+            contacts,
+            changes,
+            ..
+        } = *source;
         (self.steps, self.base, self.searched_base, self.margin) = (steps, base, searched_base, margin);
         (self.energy_input, self.energy_lost) = (energy_input, energy_lost);
         (self.contacts, self.changes) = (contacts, changes);

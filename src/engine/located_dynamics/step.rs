@@ -152,19 +152,26 @@ impl Work {
         self.rates.clear();
         self.remainders.clear();
         let Scenery { step, start, .. } = *scenery;
-        let (drop, fall) = ([0.0, 0.5 * step * step * scenery.gravity, 0.0], [0.0, step * scenery.gravity, 0.0]);
+        let (drop, fall) = (
+            [0.0, 0.5 * step * step * scenery.gravity, 0.0],
+            [0.0, step * scenery.gravity, 0.0],
+        );
         let disks = start.places.iter().zip(start.rates).zip(scenery.remainders);
         let sums = self.sums.iter().zip(scenery.inverse_masses);
         for (((place, rate), [short_place, short_rate]), ([impulse, moment], inverse)) in disks.zip(sums) {
             let moved: [(f64, f64); 3] = std::array::from_fn(|i| {
                 let exact_rate = step * rate[i] + step * short_rate[i];
-                compensated(place[i], short_place[i] + (moment[i] * inverse[i] - drop[i]) + exact_rate)
+                compensated(
+                    place[i],
+                    short_place[i] + (moment[i] * inverse[i] - drop[i]) + exact_rate,
+                )
             });
             let sped: [(f64, f64); 3] =
                 std::array::from_fn(|i| compensated(rate[i], short_rate[i] + (impulse[i] * inverse[i] - fall[i])));
             self.places.push(moved.map(|(sum, _)| sum));
             self.rates.push(sped.map(|(sum, _)| sum));
-            self.remainders.push([moved.map(|(_, short)| short), sped.map(|(_, short)| short)]);
+            self.remainders
+                .push([moved.map(|(_, short)| short), sped.map(|(_, short)| short)]);
         }
     }
 }
@@ -332,7 +339,11 @@ fn pass<const LAST: bool, F: Frame>(
         tally.work += push.work;
         if end.overlap > 0.0 {
             tally.contacts += 1;
-            tally.deepest = if end.overlap > tally.deepest { end.overlap } else { tally.deepest };
+            tally.deepest = if end.overlap > tally.deepest {
+                end.overlap
+            } else {
+                tally.deepest
+            };
         }
     }
     slot.touched = true;

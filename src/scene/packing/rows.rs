@@ -39,12 +39,7 @@ pub fn base_model() -> Variable {
 
 /// Rows of the event-driven packing: no integration, no springs, impacts instead of contacts.
 pub fn hard_rows(choice: Choice, drive: Vec<Variable>, further: Vec<Variable>) -> Vec<Variable> {
-    let absent = [
-        "chosen_time_step",
-        "largest_time_step",
-        "energy.elastic",
-        "contacts",
-    ];
+    let absent = ["chosen_time_step", "largest_time_step", "energy.elastic", "contacts"];
     let mut rows = parameters();
     rows.extend(further);
     rows.extend(drive);

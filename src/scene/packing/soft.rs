@@ -125,7 +125,11 @@ impl<I: Integrator, D: BaseDrive> SoftEngine for MolecularDynamics<I, D> {
     type Drive = D;
     type State = molecular_dynamics::State<D>;
     const NAME: &'static str = "molecular-dynamics";
-    const IDENTIFIER: &'static str = if D::STEERED { "jostle_packing" } else { "jostle_packing_sine" };
+    const IDENTIFIER: &'static str = if D::STEERED {
+        "jostle_packing"
+    } else {
+        "jostle_packing_sine"
+    };
     const DESCRIPTION: &'static str =
         "Packing of frictional disks in a box on a vibrating bottom, by molecular dynamics";
 

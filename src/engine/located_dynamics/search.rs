@@ -1,8 +1,8 @@
 //! Who may touch whom: the Verlet list, renewed at the start of the first step that could outrun it.
 
 use crate::drive::Drive;
+use crate::engine::molecular_dynamics::Breakdown;
 use crate::engine::molecular_dynamics::neighbours::{CellGrid, Cloud};
-use crate::engine::molecular_dynamics::{AtWall, Breakdown, Pair};
 use crate::geometry::Wall;
 
 use super::LocatedDynamics;
@@ -19,8 +19,7 @@ const USED: f64 = 0.9;
 #[derive(Debug, Clone, Default)]
 pub struct Search {
     grid: CellGrid,
-    pairs: Vec<Pair>,
-    at_walls: Vec<AtWall>,
+    pairs: Vec<[u32; 2]>,
     kept: Vec<Contact>,
 }
 
@@ -35,27 +34,32 @@ impl Search {
             radii,
             margin,
         };
-        self.grid.find_pairs(cloud, &mut self.pairs);
-        let pairs = self.pairs.iter().map(|pair| (pair.first, pair.second));
-        keep(&mut state.pairs, &mut self.kept, pairs);
-        self.grid
-            .find_at_walls(cloud, walls, state.searched_base, &mut self.at_walls);
-        let at_walls = self.at_walls.iter().map(|near| (near.disk, near.wall));
+        self.grid.find(cloud, &mut self.pairs);
+        keep(&mut state.pairs, &mut self.kept, self.pairs.iter().copied());
+        let base = state.searched_base;
+        let near = |disk: usize, wall: &Wall| {
+            let [x, y, _] = cloud.places[disk];
+            wall.distance(x, y, base) < radii[disk] + margin
+        };
+        let at_walls = (0..radii.len()).flat_map(|disk| {
+            let walls = walls.iter().enumerate().filter(move |(_, wall)| near(disk, wall));
+            walls.map(move |(wall, _)| [disk as u32, wall as u32])
+        });
         keep(&mut state.at_walls, &mut self.kept, at_walls);
     }
 }
 
 /// Replaces `contacts` by those of `keys`, which are sorted as they are.
-fn keep(contacts: &mut Vec<Contact>, kept: &mut Vec<Contact>, keys: impl Iterator<Item = (u32, u32)>) {
+fn keep(contacts: &mut Vec<Contact>, kept: &mut Vec<Contact>, keys: impl Iterator<Item = [u32; 2]>) {
     kept.clear();
     let mut old = contacts
         .iter()
         .filter(|contact| contact.phase != Phase::Open)
         .peekable();
     for key in keys {
-        while old.next_if(|contact| (contact.first, contact.second) < key).is_some() {}
-        let same = old.next_if(|contact| (contact.first, contact.second) == key);
-        kept.push(same.copied().unwrap_or(Contact::open(key.0, key.1)));
+        while old.next_if(|contact| [contact.first, contact.second] < key).is_some() {}
+        let same = old.next_if(|contact| [contact.first, contact.second] == key);
+        kept.push(same.copied().unwrap_or(Contact::open(key[0], key[1])));
     }
     std::mem::swap(contacts, kept);
 }

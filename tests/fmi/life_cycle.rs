@@ -279,7 +279,7 @@ fn the_importers_tolerance_chooses_the_time_step() {
         let component = Component::of::<S>(Choice { disks: 3 }).unwrap();
         let position = |name: &str| component.rows.iter().position(|row| row.name == name);
         let token = token::write(&component.card, component.choice, &component.rows);
-        let mut instance = Instance::<S>::new(&token, false).unwrap();
+        let mut instance = jostle::fmi::Instance::<S>::new(&token, Importer::default()).unwrap();
         if let Some(own) = own {
             let reference = value_reference(position("tolerance").unwrap());
             instance.set(&[reference], Access::Real, |_| Value::Real(own)).unwrap();

@@ -6,7 +6,9 @@ mod assignments;
 mod describe;
 mod fields;
 mod fmu;
+mod report;
 mod run;
+mod stability;
 #[cfg(test)]
 mod test_scene;
 mod text;
@@ -34,7 +36,9 @@ enum Command {
     Describe(describe::Describe),
     Fields(fields::Fields),
     Fmu(fmu::Fmu),
+    Report(report::Report),
     Run(run::Run),
+    Stability(stability::Stability),
     Theory(theory::Theory),
 }
 
@@ -122,7 +126,9 @@ pub fn main() -> ExitCode {
         Command::Describe(describe) => describe.execute(),
         Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
+        Command::Report(report) => report.execute(),
         Command::Run(run) => run.execute(),
+        Command::Stability(stability) => stability.execute(),
         Command::Theory(theory) => theory.execute(),
     };
     match done {

@@ -3,7 +3,7 @@
 //! A new scene is one line in [`with_scene`]'s table. Whoever names a scene's type needs nothing of this.
 
 use super::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
-use super::packing::{PackingOnInput, PackingOnSine};
+use super::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
 use super::ratchet::{RatchetOnInput, RatchetOnSine};
 use super::three_disk::{ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine};
 use super::wedge::{
@@ -50,6 +50,8 @@ macro_rules! scenes {
 scenes![
     PackingOnInput,
     PackingOnSine,
+    LocatedPackingOnInput,
+    LocatedPackingOnSine,
     HardPackingOnInput,
     HardPackingOnSine,
     WedgeMap,

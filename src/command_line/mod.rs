@@ -6,8 +6,10 @@ mod assignments;
 mod describe;
 mod fields;
 mod fmu;
+mod report;
 mod run;
 mod scenes;
+mod stability;
 #[cfg(test)]
 mod test_scene;
 mod text;
@@ -35,7 +37,9 @@ enum Command {
     Describe(describe::Describe),
     Fields(fields::Fields),
     Fmu(fmu::Fmu),
+    Report(report::Report),
     Run(run::Run),
+    Stability(stability::Stability),
     Theory(theory::Theory),
 }
 
@@ -123,7 +127,9 @@ pub fn main() -> ExitCode {
         Command::Describe(describe) => describe.execute(),
         Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
+        Command::Report(report) => report.execute(),
         Command::Run(run) => run.execute(),
+        Command::Stability(stability) => stability.execute(),
         Command::Theory(theory) => theory.execute(),
     };
     match done {

@@ -14,6 +14,8 @@ ROOT = Path(__file__).parents[2]
 COMPONENTS = [
     ("packing", "molecular-dynamics", "input"),
     ("packing", "molecular-dynamics", "sine"),
+    ("packing", "molecular-dynamics-located", "input"),
+    ("packing", "molecular-dynamics-located", "sine"),
     ("packing", "event-driven", "input"),
     ("packing", "event-driven", "sine"),
     ("wedge", "map", "sine"),

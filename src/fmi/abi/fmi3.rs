@@ -114,6 +114,7 @@ pub unsafe fn set_debug_logging<S: Scene>(
 /// As for [`enter`].
 pub unsafe fn enter_initialization_mode<S: Scene>(
     pointer: Opaque,
+    tolerance: Option<f64>,
     start: f64,
     stop_defined: Boolean,
     stop: f64,
@@ -121,7 +122,7 @@ pub unsafe fn enter_initialization_mode<S: Scene>(
     // SAFETY: passed on.
     unsafe {
         transition::<S>(pointer, "fmi3EnterInitializationMode", |instance| {
-            instance.set_up(start, (stop_defined != FALSE).then_some(stop))?;
+            instance.set_up_within(tolerance, start, (stop_defined != FALSE).then_some(stop))?;
             instance.enter_initialization()
         })
     }

@@ -29,6 +29,7 @@ seeds = 3
 [set]
 tooth.height = 3e-3
 "tooth.asymmetry" = 0.1
+tooth.count = 12.0
 [grid]
 "drive.frequency" = {from = 15.0, to = 30.0, count = 4}
 disks = [10, 20]
@@ -54,6 +55,7 @@ def test_a_grid_is_every_combination_with_every_seed(tmp_path: Path) -> None:
     assert {run.disks for run in runs} == {10, 20}
     assert sorted({dict(run.settings)["drive.frequency"] for run in runs}) == [15.0, 20.0, 25.0, 30.0]
     assert all(dict(run.settings)["tooth.height"] == 3e-3 for run in runs)
+    assert all("tooth.count=12" in run.arguments() for run in runs)  # an integer to the program
     narrowed = read_grid(path, {"set": {"drive.frequency": 20.0}, "seeds": 1}).runs()
     assert [run.disks for run in narrowed] == [10, 20]
     assert all(dict(run.settings) | {"drive.frequency": 20.0, "seed": 1} == dict(run.settings) for run in narrowed)

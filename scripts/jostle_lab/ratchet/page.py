@@ -135,7 +135,7 @@ def _runs(points: Points, plan: Plan) -> str:
 def _study(study: Study, points: dict[Case, Point]) -> Section:
     plan = study.plan(False)
     ours = lean_on_each_other(chosen(points, plan))
-    runs = " ".join([*(f"{note}." for note in study.notes), _runs(ours, plan)])
+    runs = f"{'; '.join(study.notes)}. {_runs(ours, plan)}"
     return Section(study.number, study.title, runs, study.statements(ours), study.tables(ours))
 
 

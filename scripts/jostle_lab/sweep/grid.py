@@ -75,7 +75,9 @@ class Grid:
         if disks is not None and (disks != int(disks) or disks < 1):
             raise LabError(f"disks = {disks:g} is not a number of disks. Give whole numbers above 0.")
         engine = self.engine or ENGINES[self.scene]
-        chosen = (*settings.items(), ("seed", seed))
+        # A whole number without a point, since a parameter may be an integer; a real one takes both.
+        plain = {name: int(value) if value == int(value) else value for name, value in settings.items()}
+        chosen = (*plain.items(), ("seed", seed))
         return Run(self.scene, engine, self.seconds, self.seconds, chosen, None if disks is None else int(disks))
 
 

@@ -143,6 +143,30 @@ fn damaged_averages_are_refused() {
     assert!(ratchet.state() == before && ratchet.restore(&before).is_ok());
 }
 
+/// The error that one run tells is the scatter of forty (whose own error is a ninth).
+#[test]
+fn standard_errors_are_the_scatter_of_runs() {
+    let runs: Vec<[f64; 2]> = (1..=40)
+        .map(|seed| {
+            let changes = [
+                POSITIVE.as_slice(),
+                &[("seed", f64::from(seed)), ("measure.start", 1.0)],
+            ]
+            .concat();
+            let values = values_of::<RatchetOnSine>(CHOICE, &changes);
+            let mut ratchet = RatchetOnSine::new(CHOICE, 0.0, &values).unwrap();
+            ratchet.advance_to(31.0, &values).unwrap();
+            let outputs = outputs_of(&ratchet, &values);
+            ["transport_velocity", "transport_velocity.standard_error"].map(|name| outputs.real(name))
+        })
+        .collect();
+    let mean = runs.iter().map(|run| run[0]).sum::<f64>() / 40.0;
+    let scatter = (runs.iter().map(|run| (run[0] - mean).powi(2)).sum::<f64>() / 39.0).sqrt();
+    let told = (runs.iter().map(|run| run[1].powi(2)).sum::<f64>() / 40.0).sqrt();
+    println!("{mean:.4} m/s, scatter {scatter:.5}, told {told:.5} m/s");
+    assert!((0.6..1.6).contains(&(told / scatter)));
+}
+
 /// Fields of `seconds` after `warm_up`, their end, and the transport velocity over the same time.
 fn fields(
     choice: Choice,

@@ -11,6 +11,7 @@ mod scenes;
 #[cfg(test)]
 mod test_scene;
 mod text;
+mod theory;
 
 use std::fmt;
 use std::io;
@@ -35,6 +36,7 @@ enum Command {
     Fields(fields::Fields),
     Fmu(fmu::Fmu),
     Run(run::Run),
+    Theory(theory::Theory),
 }
 
 /// Which scene, as what component: shared by all commands.
@@ -122,6 +124,7 @@ pub fn main() -> ExitCode {
         Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
         Command::Run(run) => run.execute(),
+        Command::Theory(theory) => theory.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

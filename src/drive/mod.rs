@@ -2,6 +2,7 @@
 //!
 //! A drive is a type, so that a scene compiles only the one it has.
 
+pub mod excitation;
 mod first_hit;
 mod follows_input;
 mod random_phase;

@@ -35,6 +35,8 @@ pub struct Component {
     pub choice: Choice,
     /// Variables for this choice.
     pub rows: Vec<Variable>,
+    /// Whether the scene has events for event mode ([`Scene::EVENTS`]).
+    pub events: bool,
 }
 
 impl Component {
@@ -53,12 +55,17 @@ impl Component {
             ));
         }
         let rows = S::variables(choice);
-        Ok(Self { card, choice, rows })
+        Ok(Self {
+            card,
+            choice,
+            rows,
+            events: S::EVENTS,
+        })
     }
 
     /// The `modelDescription.xml` of this component.
     pub fn model_description(&self, version: Version) -> String {
-        model_description::write(&self.card, self.choice, &self.rows, version)
+        model_description::write(self, version)
     }
 }
 
@@ -107,19 +114,22 @@ pub fn write(component: &Component, version: Version, library: &Path, out: &Path
 /// # Errors
 /// The archive cannot be made.
 pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<u8>> {
-    let Component { card, choice, rows } = component;
     let failed = |error: &dyn ToString| Error::call(format!("the archive: {}", error.to_string()), "Try again.");
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let plain = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .last_modified_time(DateTime::default());
-    for (path, content) in files(card, *choice, rows, version)? {
+    for (path, content) in files(component, version)? {
         archive
             .start_file(path, plain.unix_permissions(0o644))
             .map_err(|error| failed(&error))?;
         archive.write_all(&content).map_err(|error| failed(&error))?;
     }
-    let path = format!("binaries/{}/{}{DLL_SUFFIX}", platform(version), card.identifier);
+    let path = format!(
+        "binaries/{}/{}{DLL_SUFFIX}",
+        platform(version),
+        component.card.identifier
+    );
     archive
         .start_file(path, plain.unix_permissions(0o755))
         .map_err(|error| failed(&error))?;
@@ -127,7 +137,8 @@ pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Ve
     Ok(archive.finish().map_err(|error| failed(&error))?.into_inner())
 }
 
-fn files(card: &Card, choice: Choice, rows: &[Variable], version: Version) -> Result<Vec<(&'static str, Vec<u8>)>> {
+fn files(component: &Component, version: Version) -> Result<Vec<(&'static str, Vec<u8>)>> {
+    let Component { card, choice, rows, .. } = component;
     let license = format!(
         "SPDX-License-Identifier: {}\n\nThe texts are beside this file: LICENSE-MIT.txt, LICENSE-APACHE.txt.\n",
         model_description::LICENSE
@@ -135,11 +146,11 @@ fn files(card: &Card, choice: Choice, rows: &[Variable], version: Version) -> Re
     let mut list = vec![
         (
             "modelDescription.xml",
-            model_description::write(card, choice, rows, version).into_bytes(),
+            component.model_description(version).into_bytes(),
         ),
         (
             "documentation/index.html",
-            documentation::write(card, choice, rows, version).into_bytes(),
+            documentation::write(card, *choice, rows, version).into_bytes(),
         ),
         ("documentation/licenses/license.txt", license.into_bytes()),
         ("documentation/licenses/LICENSE-MIT.txt", MIT.into()),

@@ -11,7 +11,7 @@ use super::life_cycle::{Call, Phase};
 use super::snapshot::Clock;
 use super::{TIME_REFERENCE, token};
 use crate::error::{Error, Result};
-use crate::scene::{Causality, Choice, Kind, Scene, Table, Value, Values, Variable};
+use crate::scene::{Causality, Choice, Kind, Reached, Scene, Table, Value, Values, Variable};
 
 /// Importers add up communication points in their own way; as much of a step may differ from ours.
 const POINT_TOLERANCE_OF_STEP: f64 = 1e-6;
@@ -41,11 +41,20 @@ impl Access {
     }
 }
 
+/// What the importer said that it can do when it made the instance (FMI 3.0; in FMI 2.0 nothing of this).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Importer {
+    /// `eventModeUsed`: it handles events in event mode, and initialisation ends there.
+    pub event_mode: bool,
+    /// `earlyReturnAllowed`: a step may end before its end.
+    pub early_return: bool,
+}
+
 /// One component.
 pub struct Instance<S: Scene> {
     token: String,
     choice: Choice,
-    event_mode: bool,
+    importer: Importer,
     phase: Phase,
     clock: Clock,
     values: Values,
@@ -55,25 +64,26 @@ pub struct Instance<S: Scene> {
 }
 
 impl<S: Scene> Instance<S> {
-    /// A new component for `token`. `event_mode`: initialisation ends in event mode (FMI 3.0, if the importer asks).
+    /// A new component for `token`.
     ///
     /// # Errors
-    /// The token is not of this scene.
-    pub fn new(token: &str, event_mode: bool) -> Result<Self> {
+    /// The token is not of this scene, or the importer wants event mode of a scene that has no events.
+    pub fn new(token: &str, importer: Importer) -> Result<Self> {
         let (choice, rows) = token::read::<S>(token)?;
-        Ok(Self::start(
-            token.into(),
-            choice,
-            event_mode,
-            Arc::new(Table::new(rows)),
-        ))
+        if importer.event_mode && !S::EVENTS {
+            return Err(Error::call(
+                "event mode is not offered (hasEventMode = false)",
+                "Pass eventModeUsed = false.",
+            ));
+        }
+        Ok(Self::start(token.into(), choice, importer, Arc::new(Table::new(rows))))
     }
 
-    fn start(token: String, choice: Choice, event_mode: bool, table: Arc<Table>) -> Self {
+    fn start(token: String, choice: Choice, importer: Importer, table: Arc<Table>) -> Self {
         Self {
             token,
             choice,
-            event_mode,
+            importer,
             phase: Phase::Instantiated,
             clock: Clock {
                 start: 0.0,
@@ -149,7 +159,11 @@ impl<S: Scene> Instance<S> {
     pub fn exit_initialization(&mut self) -> Result<()> {
         Call::ExitInitialization.check(self.phase)?;
         self.build()?;
-        self.phase = if self.event_mode { Phase::Event } else { Phase::Step };
+        self.phase = if self.importer.event_mode {
+            Phase::Event
+        } else {
+            Phase::Step
+        };
         Ok(())
     }
 
@@ -159,17 +173,21 @@ impl<S: Scene> Instance<S> {
     /// Wrong phase, or event mode was not asked for when the instance was made.
     pub fn enter_event_mode(&mut self) -> Result<()> {
         Call::EnterEvent.check(self.phase)?;
-        if !self.event_mode {
+        if !self.importer.event_mode {
+            let remedy = match S::EVENTS {
+                true => "Instantiate with eventModeUsed = true.",
+                false => "Do without: this scene has no events.",
+            };
             return Err(Error::call(
                 "event mode was not asked for when the instance was made",
-                "Instantiate with eventModeUsed = true, or do without: this scene has no events.",
+                remedy,
             ));
         }
         self.phase = Phase::Event;
         Ok(())
     }
 
-    /// Iterates on events, of which there are none.
+    /// Iterates on events: the scene has done with an event when the step ends, so that one round is enough.
     ///
     /// # Errors
     /// Wrong phase.
@@ -187,21 +205,32 @@ impl<S: Scene> Instance<S> {
         Ok(())
     }
 
-    /// Advances from `current` \[s\] by `step` \[s\].
+    /// Advances from `current` \[s\] by `step` \[s\], or to the first event in between if the importer handles events in
+    /// event mode and lets a step end early. Otherwise events are done with on the way.
     ///
     /// # Errors
     /// [`Error::Step`] if the scene cannot do it; anything else if the arguments are wrong. Time, values and state are
     /// then as before, and the importer may try again.
-    pub fn do_step(&mut self, current: f64, step: f64) -> Result<()> {
+    pub fn do_step(&mut self, current: f64, step: f64) -> Result<Reached> {
         Call::DoStep.check(self.phase)?;
         let end = self.end_of_step(current, step)?;
         let Some(scene) = &mut self.scene else {
             return Err(Error::call("the scene was never initialised", "Reset the instance."));
         };
-        scene.advance_to(end, &self.values)?;
+        let reached = if S::EVENTS && self.importer.event_mode && self.importer.early_return {
+            scene.advance_to_event(end, &self.values)?
+        } else {
+            scene.advance_to(end, &self.values)?;
+            Reached {
+                time: end,
+                event: false,
+            }
+        };
+        let legal = reached.time == end || reached.event && reached.time > self.clock.now && reached.time < end;
+        assert!(legal, "the scene went to {reached:?} where {end} s was asked");
         scene.write_outputs(self.values.writer());
-        self.clock.now = end;
-        Ok(())
+        self.clock.now = reached.time;
+        Ok(reached)
     }
 
     /// The importer's own sum, so that its next communication point is ours bit for bit.
@@ -258,7 +287,7 @@ impl<S: Scene> Instance<S> {
     /// Becomes as a new instance, whatever happened before.
     pub fn reset(&mut self) {
         let table = Arc::clone(self.values.table());
-        *self = Self::start(std::mem::take(&mut self.token), self.choice, self.event_mode, table);
+        *self = Self::start(std::mem::take(&mut self.token), self.choice, self.importer, table);
     }
 
     /// Marks the instance after a panic: nothing that the scene holds may be trusted.

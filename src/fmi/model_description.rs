@@ -9,19 +9,21 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 use std::io;
 
+use super::bundle::Component;
 use super::life_cycle::Version;
 use super::xml::{self, Attributes, Xml};
 use super::{LOG_CATEGORIES, TIME_REFERENCE, token, value_reference};
-use crate::scene::{Card, Causality, Choice, Kind, Unit, Variable};
+use crate::scene::{Card, Causality, Kind, Unit, Variable};
 
 /// SPDX expression of the licence, as the model description states it.
 pub const LICENSE: &str = env!("CARGO_PKG_LICENSE");
 
-/// The model description of a scene bundled with `choice`, whose variables are `rows`.
-pub fn write(card: &Card, choice: Choice, rows: &[Variable], version: Version) -> String {
+/// The model description of a component.
+pub fn write(component: &Component, version: Version) -> String {
+    let Component { card, rows, .. } = component;
     xml::document(|xml| {
-        xml::element(xml, "fmiModelDescription", &root(card, choice, rows, version), |xml| {
-            xml::empty(xml, "CoSimulation", &capabilities(card, version))?;
+        xml::element(xml, "fmiModelDescription", &root(component, version), |xml| {
+            xml::empty(xml, "CoSimulation", &capabilities(component, version))?;
             xml::element(xml, "UnitDefinitions", &vec![], |xml| units(xml, rows))?;
             type_definitions(xml, rows, version)?;
             xml::element(xml, "LogCategories", &vec![], |xml| {
@@ -40,7 +42,8 @@ pub fn write(card: &Card, choice: Choice, rows: &[Variable], version: Version) -
     })
 }
 
-fn root(card: &Card, choice: Choice, rows: &[Variable], version: Version) -> Attributes {
+fn root(component: &Component, version: Version) -> Attributes {
+    let Component { card, choice, rows, .. } = component;
     let (number, token_name) = match version {
         Version::Two => ("2.0", "guid"),
         Version::Three => ("3.0", "instantiationToken"),
@@ -48,7 +51,7 @@ fn root(card: &Card, choice: Choice, rows: &[Variable], version: Version) -> Att
     vec![
         ("fmiVersion", number.into()),
         ("modelName", format!("{} {}", card.scene, card.engine)),
-        (token_name, token::write(card, choice, rows)),
+        (token_name, token::write(card, *choice, rows)),
         ("description", card.description.into()),
         ("version", env!("CARGO_PKG_VERSION").into()),
         ("license", LICENSE.into()),
@@ -58,7 +61,8 @@ fn root(card: &Card, choice: Choice, rows: &[Variable], version: Version) -> Att
 }
 
 /// Every flag is written, those that are the default too, so that a reader need not know the defaults.
-fn capabilities(card: &Card, version: Version) -> Attributes {
+fn capabilities(component: &Component, version: Version) -> Attributes {
+    let events = if component.events { "true" } else { "false" };
     let flags: &[(&'static str, &str)] = match version {
         Version::Two => &[
             ("needsExecutionTool", "false"),
@@ -83,13 +87,13 @@ fn capabilities(card: &Card, version: Version) -> Attributes {
             ("canHandleVariableCommunicationStepSize", "true"),
             ("maxOutputDerivativeOrder", "0"),
             ("providesIntermediateUpdate", "false"),
-            ("mightReturnEarlyFromDoStep", "false"),
+            ("mightReturnEarlyFromDoStep", events),
             ("canReturnEarlyAfterIntermediateUpdate", "false"),
-            ("hasEventMode", "false"),
+            ("hasEventMode", events),
             ("providesEvaluateDiscreteStates", "false"),
         ],
     };
-    let mut attributes = vec![("modelIdentifier", card.identifier.into())];
+    let mut attributes = vec![("modelIdentifier", component.card.identifier.into())];
     attributes.extend(flags.iter().map(|(name, value)| (*name, (*value).into())));
     attributes
 }
@@ -187,6 +191,7 @@ fn quantity_name(unit: Unit) -> Option<&'static str> {
         Unit::Newton => "Force",
         Unit::NewtonSecond => "Impulse",
         Unit::Joule => "Energy",
+        Unit::NewtonMetre => "Torque",
         _ => return None,
     })
 }

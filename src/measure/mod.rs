@@ -2,6 +2,7 @@
 
 mod batch_means;
 mod flow_fields;
+pub mod three_disk;
 mod transport;
 
 pub use batch_means::BatchMeans;

@@ -87,6 +87,8 @@ pub enum Unit {
     NewtonSecond,
     Joule,
     Watt,
+    NewtonMetre,
+    NewtonMetrePerSecond,
 }
 
 impl Unit {
@@ -109,6 +111,8 @@ impl Unit {
             Self::NewtonSecond => "N.s",
             Self::Joule => "J",
             Self::Watt => "W",
+            Self::NewtonMetre => "N.m",
+            Self::NewtonMetrePerSecond => "N.m/s",
         }
     }
 
@@ -129,8 +133,8 @@ impl Unit {
             Self::Newton => (1, 1, -2, 0),
             Self::NewtonPerMetre => (1, 0, -2, 0),
             Self::NewtonSecond => (1, 1, -1, 0),
-            Self::Joule => (1, 2, -2, 0),
-            Self::Watt => (1, 2, -3, 0),
+            Self::Joule | Self::NewtonMetre => (1, 2, -2, 0),
+            Self::Watt | Self::NewtonMetrePerSecond => (1, 2, -3, 0),
         }
     }
 }
@@ -213,7 +217,7 @@ impl Variable {
     }
 
     /// A whole number among the outputs, such as the contacts that are closed.
-    pub fn count_output(name: &str, description: &str) -> Self {
+    pub fn count_output(name: impl Into<String>, description: impl Into<String>) -> Self {
         Self {
             name: name.into(),
             description: description.into(),
@@ -221,6 +225,25 @@ impl Variable {
             kind: Kind::Integer {
                 range: 0..=i64::from(i32::MAX),
                 start: 0,
+            },
+        }
+    }
+
+    /// One of `options` among the outputs, each a name and a sentence; the first has the number 1.
+    pub fn enumeration_output(
+        name: impl Into<String>,
+        type_name: &'static str,
+        options: &'static [(&'static str, &'static str)],
+        description: impl Into<String>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            description: description.into(),
+            causality: Causality::Output,
+            kind: Kind::Enumeration {
+                type_name,
+                options,
+                start: 1,
             },
         }
     }

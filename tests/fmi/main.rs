@@ -4,6 +4,7 @@
 mod abuse;
 mod bundle;
 mod client;
+mod events;
 mod life_cycle;
 mod many;
 mod states;

@@ -1,5 +1,6 @@
 """Every FMU that the command line can write: valid, the same bits in both versions of the standard."""
 
+import csv
 import subprocess
 from pathlib import Path
 
@@ -22,6 +23,10 @@ COMPONENTS = [
     ("wedge", "molecular-dynamics", "sine"),
     ("ratchet", "event-driven", "input"),
     ("ratchet", "event-driven", "sine"),
+    ("three_disk", "molecular-dynamics", "input"),
+    ("three_disk", "molecular-dynamics", "harmonic-torque"),
+    ("three_disk", "molecular-dynamics", "random-supports"),
+    ("three_disk", "molecular-dynamics", "sine"),
 ]
 
 
@@ -40,3 +45,25 @@ def test_valid_and_equal_in_both_versions(tmp_path: Path, scene: str, engine: st
     assert len(two) > 90
     for name in two.dtype.names:
         assert np.array_equal(two[name], three[name]), name
+
+
+@pytest.mark.parametrize("version", ["2", "3"])
+def test_ratchet_runs_alike_in_and_out_of_a_component(tmp_path: Path, version: str) -> None:
+    """`jostle run` and the FMU give the same bits at the same communication points, averages and all."""
+    jostle = ROOT / "target/release/jostle"
+    fmu, table = tmp_path / "ratchet.fmu", tmp_path / "run.csv"
+    choice = ["ratchet", "--drive", "sine"]
+    subprocess.run([jostle, "fmu", *choice, "--fmi", version, "--out", fmu], check=True)
+    run = [jostle, "run", *choice, "--seconds", "2", "--sample", str(1 / 128), "--set", "measure.start=0.3"]
+    subprocess.run([*run, "--output", table], check=True)
+    with table.open(encoding="utf-8") as file:
+        native = list(csv.DictReader(file))
+    outputs = [name for name in native[0] if name != "time"]
+    start_values = {"measure.start": 0.3}
+    result = simulate_fmu(
+        str(fmu), stop_time=2.0, step_size=1 / 128, output_interval=1 / 128, start_values=start_values, output=outputs
+    )
+    assert len(result) == len(native) == 257
+    assert float(native[-1]["transport_velocity.standard_error"]) > 0.0
+    for name in ["time", *outputs]:
+        assert np.array_equal(result[name], [float(row[name]) for row in native]), name

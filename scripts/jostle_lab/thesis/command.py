@@ -19,7 +19,17 @@ Maker = Callable[[Laboratory, bool, int | None], Product]
 MODULES = {
     "3.10": "packing_paths",
     "3.11": "packing_comparison",
+    "4.3": "three_disk_region",
     "4.5": "restitution",
+    "5.1": "three_disk_regimes",
+    "5.2": "three_disk_amplitude:linear",
+    "5.3": "three_disk_amplitude:logarithmic",
+    "5.4": "three_disk_tilt:linear",
+    "5.5": "three_disk_tilt:logarithmic",
+    "5.6": "three_disk_path",
+    "5.7": "three_disk_amplitude:closed_form",
+    "5.8": "three_disk_random:against_amplitude",
+    "5.9": "three_disk_random:against_tilt",
     "6.3": "wedge_dynamics",
     "6.4": "wedge_collapse",
     "6.5": "wedge_engines",
@@ -28,8 +38,10 @@ MODULES = {
     "6.8": "wedge_restitution",
     "6.9": "wedge_skin",
     "engines": "engines",
+    "closed-form": "three_disk_closed_form",
+    "supports": "three_disk_supports",
 }
-"""Figure of the thesis and the module of this package that makes it."""
+"""Figure of the thesis and the module of this package that makes it, with its function if that is not `make`."""
 STUDIES = {
     "F3": "experiment:EXPERIMENT",
     "F6": "shape:ASYMMETRY",
@@ -54,7 +66,8 @@ def maker(number: str) -> Maker:
         module, name = STUDIES[number].split(":")
         made: Maker = getattr(import_module(f"jostle_lab.ratchet.{module}"), name).make
         return made
-    found: Maker = import_module(f"jostle_lab.thesis.{MODULES[number]}").make
+    module, _, function = MODULES[number].partition(":")
+    found: Maker = getattr(import_module(f"jostle_lab.thesis.{module}"), function or "make")
     return found
 
 

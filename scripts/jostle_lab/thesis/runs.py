@@ -34,12 +34,13 @@ class Run:
     """Time from row to row [s]."""
     settings: tuple[tuple[str, float], ...]
     """Parameters by name."""
+    drive: str = "sine"
     disks: int | None = None
     """Number of disks; None: the scene's own."""
 
     def arguments(self) -> list[str]:
         """Arguments of `jostle`, without the output file."""
-        words = ["run", self.scene, "--engine", self.engine, "--drive", "sine"]
+        words = ["run", self.scene, "--engine", self.engine, "--drive", self.drive]
         words += ["--disks", str(self.disks)] if self.disks is not None else []
         words += ["--seconds", repr(self.seconds), "--sample", repr(self.sample)]
         for name, value in self.settings:
@@ -100,6 +101,17 @@ class Laboratory:
         if done.returncode != 0:
             raise LabError(f"{' '.join(words)} failed in {root}:\n{done.stderr.strip()}")
         self.spent += time.perf_counter() - begun
+        return parse_csv(done.stdout)
+
+    def theory(self, scene: str, quantity: str, **settings: Sequence[float] | float) -> Table:
+        """What `jostle theory` prints; `__` in a name stands for a dot. All combinations, the first name slowest."""
+        words = [str(self.program), "theory", scene, quantity]
+        for name, values in settings.items():
+            numbers = [values] if isinstance(values, int | float) else values
+            words += ["--set", name.replace("__", ".") + "=" + ",".join(repr(float(number)) for number in numbers)]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise LabError(f"{' '.join(words)} failed:\n{done.stderr.strip()}")
         return parse_csv(done.stdout)
 
     def _path(self, run: Run) -> Path:

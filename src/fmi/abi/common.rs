@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::fmi::instance::{Access, Instance};
 use crate::fmi::life_cycle::Version;
 use crate::fmi::snapshot::Snapshot;
-use crate::scene::{Scene, Value};
+use crate::scene::{Reached, Scene, Value};
 
 /// `fmi2Component`, `fmi3Instance`, `fmi2FMUstate` or `fmi3FMUState`: opaque to the importer.
 pub type Opaque = *mut c_void;
@@ -202,7 +202,7 @@ impl<S: Scene> Inner<S> {
     ///
     /// # Errors
     /// As [`Instance::do_step`], with [`Error::Call`] in the place of a repeated [`Error::Step`].
-    pub fn do_step(&mut self, current: f64, step: f64) -> Result<()> {
+    pub fn do_step(&mut self, current: f64, step: f64) -> Result<Reached> {
         let done = self.instance.do_step(current, step).map_err(|error| match error {
             Error::Step {
                 scene,
@@ -216,7 +216,7 @@ impl<S: Scene> Inner<S> {
             other => other,
         });
         self.last_step = match &done {
-            Ok(()) => Status::Ok,
+            Ok(_) => Status::Ok,
             Err(Error::Step { .. }) => Status::Discard,
             Err(_) => Status::Error,
         };

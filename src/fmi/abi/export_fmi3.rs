@@ -41,7 +41,8 @@ macro_rules! export_fmi3 {
                     log: Option<Fmi3Log>, intermediate_update: Option<IntermediateUpdate>,
                 ) -> Opaque =
                     fmi3::instantiate::<$scene>(
-                        name, token, logging_on, event_mode_used, required_count, (environment, log)
+                        name, token, logging_on, (event_mode_used, early_return_allowed), required_count,
+                        (environment, log)
                     );
                 fn fmi3InstantiateScheduledExecution(
                     name: *const c_char, token: *const c_char, resource_path: *const c_char, visible: Boolean,
@@ -316,11 +317,10 @@ macro_rules! export_fmi3 {
                     terminate_simulation: *mut Boolean, early_return: *mut Boolean,
                     last_successful_time: *mut f64,
                 ) -> Status =
-                    fmi3::do_step::<$scene>(pointer, (current, step), [
-                        (event_handling_needed, "eventHandlingNeeded"),
-                        (terminate_simulation, "terminateSimulation"),
-                        (early_return, "earlyReturn"),
-                    ], last_successful_time);
+                    fmi3::do_step::<$scene>(
+                        pointer, (current, step), [event_handling_needed, terminate_simulation, early_return],
+                        last_successful_time
+                    );
                 fn fmi3ActivateModelPartition(pointer: Opaque, clock_reference: u32, activation_time: f64) -> Status =
                     common::unsupported::<$scene>(pointer, Three, "fmi3ActivateModelPartition", NO_CLOCKS);
             }

@@ -6,7 +6,7 @@ use super::common::{self, Opaque, Status, enter};
 use super::logger::{Callback, Fmi2Log, Logger};
 use super::memory;
 use crate::error::{Error, Result};
-use crate::fmi::instance::{Access, Instance};
+use crate::fmi::instance::{Access, Importer, Instance};
 use crate::fmi::life_cycle::Version::Two;
 use crate::scene::{Scene, Value};
 
@@ -73,7 +73,7 @@ pub unsafe fn instantiate<S: Scene>(
         }
         // SAFETY: by the caller's promise.
         let guid = unsafe { memory::text(guid, "fmuGUID") }?;
-        Instance::<S>::new(&guid, false)
+        Instance::<S>::new(&guid, Importer::default())
     })
 }
 
@@ -260,7 +260,11 @@ pub unsafe fn derivatives<S: Scene>(pointer: Opaque, function: &str, count: usiz
 /// As for [`enter`].
 pub unsafe fn do_step<S: Scene>(pointer: Opaque, current: f64, step: f64) -> Status {
     // SAFETY: passed on.
-    unsafe { enter::<S>(pointer, Two, "fmi2DoStep", |inner| inner.do_step(current, step)) }
+    unsafe {
+        enter::<S>(pointer, Two, "fmi2DoStep", |inner| {
+            inner.do_step(current, step).map(|_| ())
+        })
+    }
 }
 
 /// `fmi2GetStatus`.

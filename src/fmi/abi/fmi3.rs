@@ -10,7 +10,7 @@ use super::fmi2::{integer, real, texts};
 use super::logger::{Callback, Fmi3Log, Logger};
 use super::memory;
 use crate::error::{Error, Result};
-use crate::fmi::instance::{Access, Instance};
+use crate::fmi::instance::{Access, Importer, Instance};
 use crate::fmi::life_cycle::Version::Three;
 use crate::scene::{Scene, Value};
 
@@ -38,6 +38,7 @@ pub const NO_CONFIGURATION: &str = "there are no structural parameters, so there
 pub const NO_CLOCKS: &str = "there are no clocks and no scheduled execution";
 
 const FALSE: Boolean = 0;
+const TRUE: Boolean = 1;
 
 /// `fmi3InstantiateCoSimulation`.
 ///
@@ -47,7 +48,7 @@ pub unsafe fn instantiate<S: Scene>(
     name: *const c_char,
     token: *const c_char,
     logging_on: Boolean,
-    event_mode_used: Boolean,
+    (event_mode_used, early_return_allowed): (Boolean, Boolean),
     required_intermediate: usize,
     (environment, log): (Opaque, Option<Fmi3Log>),
 ) -> Opaque {
@@ -69,13 +70,11 @@ pub unsafe fn instantiate<S: Scene>(
                 "Pass nRequiredIntermediateVariables = 0.",
             ));
         }
-        if event_mode_used != FALSE {
-            return Err(Error::call(
-                "event mode is not offered (hasEventMode = false)",
-                "Pass eventModeUsed = false.",
-            ));
-        }
-        Instance::<S>::new(&token, false)
+        let importer = Importer {
+            event_mode: event_mode_used != FALSE,
+            early_return: early_return_allowed != FALSE,
+        };
+        Instance::<S>::new(&token, importer)
     })
 }
 
@@ -254,7 +253,7 @@ pub unsafe fn set_int64<S: Scene>(pointer: Opaque, (references, count, values, l
     }
 }
 
-/// `fmi3UpdateDiscreteStates`: nothing to iterate on, no event ahead.
+/// `fmi3UpdateDiscreteStates`: nothing to iterate on, and no event whose time is known ahead.
 ///
 /// # Safety
 /// As for [`enter`]; the pointers are null or may be written.
@@ -282,19 +281,26 @@ pub unsafe fn update_discrete_states<S: Scene>(
 pub unsafe fn do_step<S: Scene>(
     pointer: Opaque,
     (current, step): (f64, f64),
-    flags: [(*mut Boolean, &str); 3],
+    [event_handling_needed, terminate_simulation, early_return]: [*mut Boolean; 3],
     last_successful_time: *mut f64,
 ) -> Status {
     // SAFETY: passed on.
     unsafe {
         enter::<S>(pointer, Three, "fmi3DoStep", |inner| {
             // Written before the step, so that a bad pointer cannot hide a step that was done.
-            for (flag, name) in flags {
-                memory::write(flag, FALSE, name)?;
-            }
+            memory::write(event_handling_needed, FALSE, "eventHandlingNeeded")?;
+            memory::write(terminate_simulation, FALSE, "terminateSimulation")?;
+            memory::write(early_return, FALSE, "earlyReturn")?;
             memory::write(last_successful_time, inner.instance.time(), "lastSuccessfulTime")?;
-            inner.do_step(current, step)?;
-            memory::write(last_successful_time, inner.instance.time(), "lastSuccessfulTime")
+            let reached = inner.do_step(current, step)?;
+            memory::write(last_successful_time, reached.time, "lastSuccessfulTime")?;
+            if reached.event {
+                memory::write(event_handling_needed, TRUE, "eventHandlingNeeded")?;
+            }
+            if reached.time < current + step {
+                memory::write(early_return, TRUE, "earlyReturn")?;
+            }
+            Ok(())
         })
     }
 }

@@ -65,7 +65,7 @@ def test_a_grid_is_every_combination_with_every_seed(tmp_path: Path) -> None:
     ("table", "message"),
     [
         ({"scene": "ratchet"}, "seconds is missing"),
-        ({"scene": "rachet", "seconds": 1}, "none of packing, wedge, ratchet"),
+        ({"scene": "rachet", "seconds": 1}, "none of packing, wedge, ratchet, three_disk"),
         ({"scene": "ratchet", "seconds": -1}, "not a time above 0"),
         ({"scene": "ratchet", "seconds": float("nan")}, "not a finite number"),
         ({"scene": "ratchet", "seconds": 1, "speed": 2}, "speed is not known"),

@@ -77,7 +77,7 @@ class Case:
             "seed": seed,
         }
         whole = self.warm_up + self.seconds
-        return Run("ratchet", "event-driven", whole, whole, tuple(settings.items()), self.disks)
+        return Run("ratchet", "event-driven", whole, whole, tuple(settings.items()), disks=self.disks)
 
 
 AT_REST = 0.05

@@ -62,10 +62,11 @@ WHY = """
 - Negative transport begins at h = 4 to 5.5 mm, the later the steeper the teeth (Fig. 7 and its map): so at h = 5 mm the
   steepest teeth still push forwards, and so do they at 4 mm. It is not the tip (table of Fig. 6). "Between 4 and 16 mm"
   and "less than about 0.4" hold to within one step of our grid: near a = 0.45 the flow is weak but has not gone.
-- Fig. 10: two more depths reverse here, beyond the errors. n = 0.7 is positive in a window of 1 Hz right above the onset,
-  which coarser frequencies miss; n = 4.2 reverses at 29 Hz, and how far F's frequencies go is not said.
-- Dissipation: F refers to earlier work and shows nothing. Less restitution does weaken the positive flow; the negative one
-  is strongest near 0.8. More friction strengthens both: a disk that cannot grip a side is not thrown along it.
+- Fig. 10: two more depths reverse here, beyond the errors. n = 0.7 is positive in a window of 1 Hz right above the
+  onset, which coarser frequencies miss; n = 4.2 reverses at 29 Hz, and how far F's frequencies go is not said.
+- Dissipation: F refers to earlier work and shows nothing. Less restitution does weaken the positive flow; the negative
+  one is strongest near 0.8. More friction strengthens the positive flow, threefold from none to 0.5, and leaves the
+  negative one as it is within the errors: it is impacts on the steep sides that turn that one.
 - The exponent of Fig. 11 depends on the window more than its interval says: 0.18 to 0.30 over the table, so F's
   +- 0.05 is about right. Runs of 300 s and late starts change the point nearest to the threshold only, where beds
   freeze: this rounds the onset.

@@ -5,6 +5,7 @@
 mod assignments;
 mod describe;
 mod fmu;
+mod replay;
 mod run;
 mod scenes;
 #[cfg(test)]
@@ -32,6 +33,7 @@ struct Arguments {
 enum Command {
     Describe(describe::Describe),
     Fmu(fmu::Fmu),
+    Replay(replay::Replay),
     Run(run::Run),
 }
 
@@ -117,6 +119,7 @@ impl fmt::Display for Failure {
 pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Describe(describe) => describe.execute(),
+        Command::Replay(replay) => replay.execute(),
         Command::Fmu(fmu) => fmu.execute(),
         Command::Run(run) => run.execute(),
     };

@@ -2,6 +2,7 @@
 #![allow(unsafe_code, clippy::undocumented_unsafe_blocks, clippy::unwrap_used)]
 
 mod abuse;
+mod arrays_and_derivatives;
 mod bundle;
 mod client;
 mod events;

@@ -33,7 +33,7 @@ fn growth<S: Scene>() -> f64 {
     let given = [("gravity", quantity.start.next_up().into())];
     let mut twin = Simulation::<S>::new(component.choice.disks, &given).unwrap();
     let table = twin.values().table().clone();
-    assert!(rows.len() > 20, "{} refuses its reference", component.card.identifier);
+    assert!(rows.len() > 16, "{} refuses its reference", component.card.identifier);
     let mut largest: f64 = 0.0;
     for (number, row) in rows.iter().enumerate() {
         for (index, name) in names.iter().enumerate().skip(1) {

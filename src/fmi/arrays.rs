@@ -23,13 +23,18 @@ pub fn name(first: &str) -> &str {
     first.strip_suffix("[1]").unwrap_or(first)
 }
 
+/// Whether `row` is the first element of an array.
+pub fn begins(row: &Variable) -> bool {
+    let computed = matches!(row.causality, Causality::Output | Causality::CalculatedParameter);
+    computed && row.name.ends_with("[1]")
+}
+
 /// Elements of the variable that begins with the first of `rows`; a scalar has one.
 fn length(rows: &[Variable]) -> usize {
-    let computed = matches!(rows[0].causality, Causality::Output | Causality::CalculatedParameter);
-    let stem = name(&rows[0].name);
-    if !computed || stem == rows[0].name {
+    if !begins(&rows[0]) {
         return 1;
     }
+    let stem = name(&rows[0].name);
     let indices = rows.iter().zip(1..);
     indices
         .take_while(|(row, index): &(_, u32)| row.name == format!("{stem}[{index}]"))

@@ -8,7 +8,7 @@ use super::bundle::Component;
 use super::life_cycle::Version;
 use super::model_description::LICENSE;
 use super::reference::PATH;
-use super::value_reference;
+use super::{arrays, value_reference};
 use crate::scene::{Card, Causality, Kind, Variable};
 
 const STYLE: &str = "body { font-family: sans-serif; max-width: 60em; margin: 2em auto; line-height: 1.4 } \
@@ -19,7 +19,7 @@ const STYLE: &str = "body { font-family: sans-serif; max-width: 60em; margin: 2e
 
 /// The page: what it is, how to use it, its variables, its equations, its licence.
 pub fn write(component: &Component, version: Version, binary: &[u8]) -> String {
-    let Component { card, choice, rows, .. } = component;
+    let Component { card, choice, .. } = component;
     let title = format!("{} ({})", card.scene, card.engine);
     let standard = match version {
         Version::Two => "FMI 2.0",
@@ -38,7 +38,7 @@ pub fn write(component: &Component, version: Version, binary: &[u8]) -> String {
         drive = escape(card.drive),
         tool = env!("CARGO_PKG_VERSION"),
         usage = usage(card),
-        tables = tables(rows),
+        tables = tables(component),
         equations = card.equations,
         build = build(component, binary),
     )
@@ -71,7 +71,13 @@ fn usage(card: &Card) -> String {
     )
 }
 
-fn tables(rows: &[Variable]) -> String {
+fn tables(component: &Component) -> String {
+    let rows = &component.rows;
+    let spans = if component.arrays {
+        arrays::spans(rows)
+    } else {
+        vec![1; rows.len()]
+    };
     let groups = [
         ("Parameters", Causality::Parameter),
         ("Inputs", Causality::Input),
@@ -83,7 +89,7 @@ fn tables(rows: &[Variable]) -> String {
         let group: Vec<_> = rows
             .iter()
             .enumerate()
-            .filter(|(_, row)| row.causality == causality)
+            .filter(|(position, row)| row.causality == causality && spans[*position] > 0)
             .collect();
         if group.is_empty() {
             continue;
@@ -93,14 +99,18 @@ fn tables(rows: &[Variable]) -> String {
              <th>Value reference</th><th>Description</th></tr>\n"
         ));
         for (position, row) in group {
-            text.push_str(&table_row(position, row));
+            let name = match component.arrays && arrays::begins(row) {
+                true => format!("{} ({} elements)", arrays::name(&row.name), spans[position]),
+                false => row.name.clone(),
+            };
+            text.push_str(&table_row(&name, position, row));
         }
         text.push_str("</table>\n");
     }
     text
 }
 
-fn table_row(position: usize, row: &Variable) -> String {
+fn table_row(name: &str, position: usize, row: &Variable) -> String {
     let given = matches!(row.causality, Causality::Parameter | Causality::Input);
     let (unit, range, start) = match &row.kind {
         Kind::Real(quantity) => {
@@ -126,7 +136,7 @@ fn table_row(position: usize, row: &Variable) -> String {
     format!(
         "<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>\
          <td>{}</td></tr>\n",
-        escape(row.name.as_str()),
+        escape(name),
         escape(unit),
         range,
         if given { start } else { String::new() },

@@ -18,8 +18,8 @@ pub const PATH: &str = "extra/jostle/reference.csv";
 /// Longest communication step \[s\].
 const LONGEST_STEP: f64 = 1.0 / 1024.0;
 /// Steps: as many as keep the table at about this number of values, within a range.
-const VALUES: usize = 6000;
-const STEPS: std::ops::RangeInclusive<usize> = 24..=96;
+const VALUES: usize = 4000;
+const STEPS: std::ops::RangeInclusive<usize> = 16..=96;
 /// Steps in a period of the inputs, about 85 Hz.
 const PERIOD: f64 = 12.0;
 /// Largest acceleration of the base \[m/s2\]: grains leave it, which hard disks need.

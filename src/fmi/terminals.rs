@@ -1,6 +1,7 @@
 //! Variable table in, `terminalsAndIcons/terminalsAndIcons.xml` of FMI 3.0 out: what belongs to one mechanical flange.
 //!
-//! Variables that share the prefix of an input (`base.` of `base.displacement`) make one terminal, named by the prefix.
+//! Variables that share the prefix of an input (`base.` of `base.displacement`) make one terminal, named by the prefix; an
+//! input without a prefix, such as a torque, is one of its own name.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +13,7 @@ pub fn write(rows: &[Variable]) -> String {
     let flanges: BTreeSet<&str> = rows
         .iter()
         .filter(|row| row.causality == Causality::Input)
-        .filter_map(|row| Some(row.name.split_once('.')?.0))
+        .map(|row| split(&row.name).0)
         .collect();
     xml::document(|xml| {
         xml::element(
@@ -51,11 +52,8 @@ fn terminal(xml: &mut xml::Xml, flange: &str, rows: &[Variable]) -> std::io::Res
     xml::element(xml, "Terminal", &about, |xml| {
         for row in rows {
             let signal = matches!(row.causality, Causality::Input | Causality::Output);
-            let member = row
-                .name
-                .split_once('.')
-                .filter(|(prefix, _)| signal && *prefix == flange);
-            if let Some((_, member)) = member {
+            let (prefix, member) = split(&row.name);
+            if signal && prefix == flange {
                 let attributes = vec![
                     ("variableName", row.name.clone()),
                     ("memberName", member.into()),
@@ -66,4 +64,37 @@ fn terminal(xml: &mut xml::Xml, flange: &str, rows: &[Variable]) -> std::io::Res
         }
         Ok(())
     })
+}
+
+/// Terminal and member of it that a variable would be.
+fn split(name: &str) -> (&str, &str) {
+    name.split_once('.').unwrap_or((name, name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Unit;
+
+    #[test]
+    fn flanges_are_those_of_the_inputs() {
+        let input = |name: &str| Variable::input(name, Unit::One, 1.0, "");
+        let output = |name: &str| Variable::output(name, Unit::One, 1.0, "");
+        let text = write(&[
+            input("base.displacement"),
+            input("torque"),
+            output("base.reaction_force"),
+            output("energy.lost"),
+        ]);
+        assert_eq!(text.matches("<Terminal ").count(), 2);
+        for (variable, member) in [
+            ("base.displacement", "displacement"),
+            ("base.reaction_force", "reaction_force"),
+            ("torque", "torque"),
+        ] {
+            let member = format!(r#"variableName="{variable}" memberName="{member}""#);
+            assert!(text.contains(&member), "{text}");
+        }
+        assert!(!text.contains("energy") && !write(&[output("torque")]).contains("Terminals>"));
+    }
 }

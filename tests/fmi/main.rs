@@ -8,4 +8,5 @@ mod client;
 mod events;
 mod life_cycle;
 mod many;
+mod state_table;
 mod states;

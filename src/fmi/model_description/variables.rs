@@ -27,7 +27,7 @@ pub fn write(xml: &mut Xml, sheet: &Sheet<'_>) -> io::Result<()> {
 
 fn variable(xml: &mut Xml, sheet: &Sheet<'_>, position: usize) -> io::Result<()> {
     let row = &sheet.rows[position];
-    let array = sheet.arrays && row.name.ends_with("[1]") && computed(row);
+    let array = sheet.arrays && arrays::begins(row);
     let (name, description) = if array {
         (arrays::name(&row.name), row.description.replace("disk 1", "each disk"))
     } else {
@@ -63,10 +63,6 @@ fn variable(xml: &mut Xml, sheet: &Sheet<'_>, position: usize) -> io::Result<()>
         list,
         if array { sheet.spans[position] } else { 0 },
     )
-}
-
-fn computed(row: &Variable) -> bool {
-    matches!(row.causality, Causality::Output | Causality::CalculatedParameter)
 }
 
 /// FMI 2.0 splits what FMI 3.0 writes in one element. `dimension` is 0 for a scalar.

@@ -72,7 +72,7 @@ impl SkinMemory {
 
 /// Below this the series of the arc sine through the fifth power is exact to rounding: the next term, relative to the
 /// first, is 15/336 x^6 < 1e-17.
-const SMALL_SINE: f64 = 0.002;
+pub const SMALL_SINE: f64 = 0.002;
 
 #[inline]
 fn small_arc_sine(x: f64) -> f64 {

@@ -5,6 +5,7 @@ use crate::drive::Motion;
 use crate::geometry::Wall;
 
 use super::contacts::{AtWall, Pair, SkinMemory};
+use super::two_contacts::{Contact, Laws, Sums, Two, two};
 
 /// Contact laws of every contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,163 +29,171 @@ pub struct Tally {
     pub contacts: u32,
 }
 
-/// A closed contact in its own frame: what the laws need.
-struct Closed {
-    overlap: f64,
-    /// u_n \[m/s\], negative on approach.
-    normal_velocity: f64,
-    /// u_t \[m/s\] of the surfaces.
-    surface_velocity: f64,
-    normal: [f64; 2],
-    /// lambda \[m\] with beta counted from zero (P 4.5, 4.7).
-    surface: f64,
-    /// Lever of beta in lambda: the sum of the radii, and 0 at a wall, whose normal does not turn.
-    reach: f64,
+/// Bodies as the forces see them: places (x, y, angle), rates, radii. All of one length.
+#[derive(Clone, Copy)]
+pub struct Bodies<'a> {
+    places: &'a [[f64; 3]],
+    rates: &'a [[f64; 3]],
+    radii: &'a [f64],
 }
 
-impl ContactLaws {
-    /// Normal force and tangential force on the first body \[N\], with the skin's memory brought up to date.
-    ///
-    /// A contact that closes inside the step of length `step` \[s\] has its lambda* dated back to the instant of touch.
-    #[inline(always)]
-    fn act(&self, contact: &Closed, skin: &mut SkinMemory, step: f64, tally: &mut Tally) -> (f64, f64) {
-        let normal_force = self.normal.force(contact.overlap, contact.normal_velocity);
-        if !skin.is_closed() {
-            // Closed since `overlap / approach` ago, and for no longer than this step.
-            let since = if -contact.normal_velocity * step > contact.overlap {
-                contact.overlap / -contact.normal_velocity
-            } else {
-                step
-            };
-            skin.direction = contact.normal;
-            skin.reference = contact.surface - contact.surface_velocity * since;
-            skin.stretch = 0.0;
-        }
-        let turn = skin.turn(contact.normal, contact.reach);
-        let trial = contact.surface - contact.reach * turn - skin.reference;
-        let stretch = self.skin.limited(trial, normal_force);
-        let slip = trial - stretch;
-        // Slip heats by the mean of the forces before and after; both point against the slip.
-        tally.slip_heat += 0.5 * self.skin.stiffness * (stretch + skin.stretch) * slip;
-        skin.reference += slip;
-        skin.stretch = stretch;
-        tally.dissipated_power += self
-            .normal
-            .dissipated_power(contact.overlap, contact.normal_velocity, normal_force);
-        tally.deepest = if contact.overlap > tally.deepest {
-            contact.overlap
-        } else {
-            tally.deepest
-        };
-        tally.contacts += 1;
-        (normal_force, self.skin.force(stretch))
-    }
-
-    /// Opens a contact: what the skin still held is lost.
-    #[cold]
-    fn open(&self, skin: &mut SkinMemory, tally: &mut Tally) {
-        tally.slip_heat += self.skin.energy(skin.stretch);
-        *skin = SkinMemory::OPEN;
-    }
-
-    /// Adds the forces between disks to `forces` (x, y, torque of each).
-    ///
-    /// The tangential force on the centres is `tau (R_a + R_b) / r` while the torques have the arms R_a and R_b: so
-    /// angular momentum is kept when disks overlap, and the skin is elastic in the strict sense, force = -gradient.
-    pub fn between_disks(
-        &self,
-        pairs: &mut [Pair],
-        (places, rates, radii): (&[[f64; 3]], &[[f64; 3]], &[f64]),
-        forces: &mut [[f64; 3]],
-        step: f64,
-        tally: &mut Tally,
-    ) {
-        for pair in pairs {
-            let (i, j) = (pair.first as usize, pair.second as usize);
-            let (a, b) = (&places[i], &places[j]);
-            let (dx, dy) = (a[0] - b[0], a[1] - b[1]);
-            let squared = dx * dx + dy * dy;
-            if squared >= pair.reach * pair.reach {
-                if pair.skin.is_closed() {
-                    self.open(&mut pair.skin, tally);
-                }
-                continue;
-            }
-            let distance = squared.sqrt();
-            let inverse = 1.0 / distance;
-            let (nx, ny) = (dx * inverse, dy * inverse);
-            let (va, vb) = (&rates[i], &rates[j]);
-            let (ra, rb) = (radii[i], radii[j]);
-            let (ux, uy) = (va[0] - vb[0], va[1] - vb[1]);
-            let lever = pair.reach * inverse;
-            let contact = Closed {
-                overlap: pair.reach - distance,
-                normal_velocity: ux * nx + uy * ny,
-                surface_velocity: (ux * ny - uy * nx) * lever + ra * va[2] + rb * vb[2],
-                normal: [nx, ny],
-                surface: ra * a[2] + rb * b[2],
-                reach: pair.reach,
-            };
-            let (normal, tangential) = self.act(&contact, &mut pair.skin, step, tally);
-            let sideways = tangential * lever;
-            let (fx, fy) = (normal * nx + sideways * ny, normal * ny - sideways * nx);
-            let force = &mut forces[i];
-            force[0] += fx;
-            force[1] += fy;
-            force[2] += tangential * ra;
-            let force = &mut forces[j];
-            force[0] -= fx;
-            force[1] -= fy;
-            force[2] += tangential * rb;
+impl<'a> Bodies<'a> {
+    /// The first so many places and rates as there are radii.
+    pub fn new(places: &'a [[f64; 3]], rates: &'a [[f64; 3]], radii: &'a [f64]) -> Self {
+        // One length for all, so that one check of an index serves all three.
+        let count = radii.len();
+        Self {
+            places: &places[..count],
+            rates: &rates[..count],
+            radii,
         }
     }
+}
 
-    /// Adds the forces of the walls to `forces`, and each wall's own sum (x, y) to `on_walls`, which lists them flat.
-    #[allow(clippy::too_many_arguments)]
-    pub fn at_walls(
-        &self,
-        at_walls: &mut [AtWall],
-        walls: &[Wall],
-        base: Motion,
-        (places, rates, radii): (&[[f64; 3]], &[[f64; 3]], &[f64]),
-        (forces, from_walls): (&mut [[f64; 3]], &mut [f64]),
-        step: f64,
-        tally: &mut Tally,
-    ) {
-        for near in at_walls {
-            let disk = near.disk as usize;
-            let index = near.wall as usize;
-            let wall = &walls[index];
-            let ([x, y, angle], radius) = (places[disk], radii[disk]);
-            let overlap = radius - wall.distance(x, y, base.displacement);
-            if overlap <= 0.0 {
-                if near.skin.is_closed() {
-                    self.open(&mut near.skin, tally);
-                }
-                continue;
-            }
-            let ([nx, ny], [tx, ty]) = (wall.normal, wall.tangent());
-            let [vx, vy, angular_velocity] = rates[disk];
-            let (lift, vy) = (
-                wall.follows_base * base.displacement,
-                vy - wall.follows_base * base.velocity,
-            );
-            let contact = Closed {
-                overlap,
-                normal_velocity: nx * vx + ny * vy,
-                surface_velocity: tx * vx + ty * vy + radius * angular_velocity,
-                normal: wall.normal,
-                surface: radius * angle + tx * x + ty * (y - lift),
-                reach: 0.0,
-            };
-            let (normal, tangential) = self.act(&contact, &mut near.skin, step, tally);
-            let (fx, fy) = (normal * nx + tangential * tx, normal * ny + tangential * ty);
-            let force = &mut forces[disk];
-            force[0] += fx;
-            force[1] += fy;
-            force[2] += tangential * radius;
-            from_walls[2 * index] += fx;
-            from_walls[2 * index + 1] += fy;
-        }
+/// Adds the forces between disks to `forces` (x, y, torque of each).
+///
+/// The tangential force on the centres is `tau (R_a + R_b) / r` while the torques have the arms R_a and R_b: so
+/// angular momentum is kept when disks overlap, and the skin is elastic in the strict sense, force = -gradient.
+pub fn between_disks(laws: &Laws, pairs: &mut [Pair], bodies: Bodies<'_>, forces: &mut [[f64; 3]], sums: &mut Sums) {
+    let forces = &mut forces[..bodies.radii.len()];
+    let (twos, rest) = pairs.as_chunks_mut();
+    for two in twos {
+        two_pairs(laws, two, bodies, forces, sums);
+    }
+    if let [last] = rest {
+        // A second pair that cannot touch fills the place.
+        let mut two = [*last; 2];
+        (two[1].reach, two[1].skin) = (0.0, SkinMemory::OPEN);
+        two_pairs(laws, &mut two, bodies, forces, sums);
+        *last = two[0];
+    }
+}
+
+#[inline(always)]
+fn two_pairs(laws: &Laws, pairs: &mut [Pair; 2], bodies: Bodies<'_>, forces: &mut [[f64; 3]], sums: &mut Sums) {
+    let Bodies { places, rates, radii } = bodies;
+    let first = [pairs[0].first as usize, pairs[1].first as usize];
+    let second = [pairs[0].second as usize, pairs[1].second as usize];
+    let apart = |of: &[[f64; 3]], axis: usize| two(|k| of[first[k]][axis]) - two(|k| of[second[k]][axis]);
+    let (ra, rb) = (two(|k| radii[first[k]]), two(|k| radii[second[k]]));
+    let around = |of: &[[f64; 3]]| ra * two(|k| of[first[k]][2]) + rb * two(|k| of[second[k]][2]);
+
+    let reach = two(|k| pairs[k].reach);
+    let (dx, dy) = (apart(places, 0), apart(places, 1));
+    let distance = (dx * dx + dy * dy).sqrt();
+    let inverse = 1.0 / distance;
+    let (nx, ny) = (dx * inverse, dy * inverse);
+    let (ux, uy) = (apart(rates, 0), apart(rates, 1));
+    let lever = reach * inverse;
+    let contact = Contact {
+        overlap: reach - distance,
+        normal_velocity: ux * nx + uy * ny,
+        normal: [nx, ny],
+        surface: around(places),
+        reach,
+    };
+    let [one, other] = pairs;
+    let skins = [&mut one.skin, &mut other.skin];
+    let (normal, tangential) = laws.act(&contact, skins, sums, || (ux * ny - uy * nx) * lever + around(rates));
+
+    let sideways = tangential * lever;
+    let fx = (normal * nx + sideways * ny).to_array();
+    let fy = (normal * ny - sideways * nx).to_array();
+    let (ta, tb) = ((tangential * ra).to_array(), (tangential * rb).to_array());
+    for k in 0..2 {
+        let force = &mut forces[first[k]];
+        force[0] += fx[k];
+        force[1] += fy[k];
+        force[2] += ta[k];
+        let force = &mut forces[second[k]];
+        force[0] -= fx[k];
+        force[1] -= fy[k];
+        force[2] += tb[k];
+    }
+}
+
+/// Adds the forces of the walls to `forces`, and each wall's own sum (x, y) to `from_walls`, which lists them flat.
+pub fn at_walls(
+    laws: &Laws,
+    at_walls: &mut [AtWall],
+    (walls, base): (&[Wall], Motion),
+    bodies: Bodies<'_>,
+    (forces, from_walls): (&mut [[f64; 3]], &mut [f64]),
+    sums: &mut Sums,
+) {
+    let forces = &mut forces[..bodies.radii.len()];
+    let (from_walls, _) = from_walls.as_chunks_mut();
+    let (twos, rest) = at_walls.as_chunks_mut();
+    for two in twos {
+        two_at_walls(
+            laws,
+            two,
+            (walls, base),
+            bodies,
+            (&mut *forces, &mut *from_walls),
+            [0.0; 2],
+            sums,
+        );
+    }
+    if let [last] = rest {
+        let mut two = [*last; 2];
+        two[1].skin = SkinMemory::OPEN;
+        two_at_walls(
+            laws,
+            &mut two,
+            (walls, base),
+            bodies,
+            (forces, from_walls),
+            [0.0, f64::INFINITY],
+            sums,
+        );
+        *last = two[0];
+    }
+}
+
+/// `aside` moves each disk away from its wall: a second one that is not there is infinitely far.
+#[inline(always)]
+fn two_at_walls(
+    laws: &Laws,
+    near: &mut [AtWall; 2],
+    (walls, base): (&[Wall], Motion),
+    bodies: Bodies<'_>,
+    (forces, from_walls): (&mut [[f64; 3]], &mut [[f64; 2]]),
+    aside: [f64; 2],
+    sums: &mut Sums,
+) {
+    let disk = [near[0].disk as usize, near[1].disk as usize];
+    let wall = [near[0].wall as usize, near[1].wall as usize];
+    let place = |axis: usize| two(|k| bodies.places[disk[k]][axis]);
+    let rate = |axis: usize| two(|k| bodies.rates[disk[k]][axis]);
+    let radius = two(|k| bodies.radii[disk[k]]);
+    let (nx, ny) = (two(|k| walls[wall[k]].normal[0]), two(|k| walls[wall[k]].normal[1]));
+    let (tx, ty) = (ny, -nx);
+    let follows = two(|k| walls[wall[k]].follows_base);
+    let (x, y) = (place(0), place(1) - follows * base.displacement);
+    let (vx, vy) = (rate(0), rate(1) - follows * base.velocity);
+    let distance = nx * x + ny * y - two(|k| walls[wall[k]].offset);
+    let contact = Contact {
+        overlap: radius - distance - Two::new(aside),
+        normal_velocity: nx * vx + ny * vy,
+        normal: [nx, ny],
+        surface: radius * place(2) + tx * x + ty * y,
+        reach: Two::splat(0.0),
+    };
+    let [one, other] = near;
+    let skins = [&mut one.skin, &mut other.skin];
+    let (normal, tangential) = laws.act(&contact, skins, sums, || tx * vx + ty * vy + radius * rate(2));
+
+    let fx = (normal * nx + tangential * tx).to_array();
+    let fy = (normal * ny + tangential * ty).to_array();
+    let torque = (tangential * radius).to_array();
+    for k in 0..2 {
+        let force = &mut forces[disk[k]];
+        force[0] += fx[k];
+        force[1] += fy[k];
+        force[2] += torque[k];
+        let force = &mut from_walls[wall[k]];
+        force[0] += fx[k];
+        force[1] += fy[k];
     }
 }

@@ -13,6 +13,7 @@ mod neighbours;
 mod setup;
 mod state;
 mod time_step;
+mod two_contacts;
 
 use std::marker::PhantomData;
 
@@ -28,8 +29,9 @@ pub use setup::{Breakdown, Setup};
 pub use state::State;
 pub use time_step::TimeStepLimits;
 
-use forces::Tally;
-use neighbours::{CellGrid, Cloud};
+use forces::{Bodies, Tally, at_walls, between_disks};
+use neighbours::{Cloud, Neighbours, farthest_squared, inner_margin};
+use two_contacts::{Laws, Sums};
 
 /// Largest number of time steps that one call may ask for: about a day of a small scene.
 const MOST_STEPS: f64 = 1e11;
@@ -47,13 +49,12 @@ pub struct MolecularDynamics<I, D> {
     /// Weight as a flat force.
     weight: Vec<f64>,
     smallest_radius: f64,
-    margin: f64,
     state: State<D>,
     /// The state at the last time that was asked for, if that is no grid point.
     between: Option<State<D>>,
     backup: State<D>,
     force: Vec<f64>,
-    grid: CellGrid,
+    neighbours: Neighbours,
     integrator: PhantomData<I>,
 }
 
@@ -86,6 +87,7 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
             searched: Vec::new(),
             searched_base: 0.0,
             searched_step: 0,
+            searched_margin: 0.0,
             base_force: 0.0,
             dissipated_power: 0.0,
             energy_input: 0.0,
@@ -93,7 +95,6 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
             contacts: 0,
         };
         let mut engine = Self {
-            margin: MARGIN * smallest_radius,
             setup,
             radii,
             inverse_mass,
@@ -103,7 +104,7 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
             backup: state.clone(),
             between: None,
             state,
-            grid: CellGrid::default(),
+            neighbours: Neighbours::new(smallest_radius),
             integrator: PhantomData,
         };
         engine.set_motion(|_| ());
@@ -153,6 +154,7 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
             && ahead <= 2.0 * step + rounding
             && state.searched_step <= state.steps
             && are_sane(state.searched.iter().flatten().copied().chain([state.searched_base]))
+            && (0.0..=self.smallest_radius).contains(&state.searched_margin)
     }
 
     /// Changes positions and velocities by hand (initial states of tests and studies) and starts afresh from there.
@@ -243,11 +245,22 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     }
 
     fn run_to(&mut self, target: u64) -> Result<(), Breakdown> {
-        while self.state.steps < target {
-            self.step(self.setup.time_step, self.time_of(self.state.steps + 1))?;
-            self.state.steps += 1;
+        if self.state.steps >= target {
+            return Ok(());
         }
-        Ok(())
+        let step = self.setup.time_step;
+        I::predict(coordinates(&mut self.state), step);
+        loop {
+            self.arrive(step, self.time_of(self.state.steps + 1))?;
+            self.state.steps += 1;
+            let done = self.state.steps == target;
+            let coordinates = coordinates(&mut self.state);
+            if done {
+                I::correct(coordinates, &self.force, &self.inverse_mass, step);
+                return Ok(());
+            }
+            I::correct_and_predict(coordinates, &self.force, &self.inverse_mass, step);
+        }
     }
 
     /// Takes one short step on a copy if `time` lies between grid points; else there is nothing to copy.
@@ -269,6 +282,13 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     /// One step of length `step` \[s\] that ends at `time` \[s\].
     fn step(&mut self, step: f64, time: f64) -> Result<(), Breakdown> {
         I::predict(coordinates(&mut self.state), step);
+        self.arrive(step, time)?;
+        I::correct(coordinates(&mut self.state), &self.force, &self.inverse_mass, step);
+        Ok(())
+    }
+
+    /// What lies between prediction and correction of a step: base, neighbours, forces and the balance of energy.
+    fn arrive(&mut self, step: f64, time: f64) -> Result<(), Breakdown> {
         let base_before = self.state.base.displacement;
         self.state.base = self.state.drive.motion(time);
         self.search_if_due(time)?;
@@ -283,8 +303,6 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
                 allowed,
             });
         }
-        I::correct(coordinates(&mut self.state), &self.force, &self.inverse_mass, step);
-
         let state = &mut self.state;
         state.energy_input += 0.5 * (base_force_before + state.base_force) * (state.base.displacement - base_before);
         state.energy_lost += 0.5 * step * (state.dissipated_power + tally.dissipated_power) + tally.slip_heat;
@@ -300,40 +318,24 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         self.force.copy_from_slice(&self.weight);
         let (on_disks, from_walls) = self.force.split_at_mut(3 * count);
         let (on_disks, _) = on_disks.as_chunks_mut();
-        let disks = (
-            state.position.as_chunks().0,
-            state.velocity.as_chunks().0,
-            self.radii.as_slice(),
-        );
-        let mut tally = Tally::default();
-        let laws = self.setup.laws;
-        laws.between_disks(&mut state.pairs, disks, on_disks, step, &mut tally);
+        let bodies = Bodies::new(state.position.as_chunks().0, state.velocity.as_chunks().0, &self.radii);
+        let laws = Laws::new(&self.setup.laws, step);
         let walls = &self.setup.walls;
-        laws.at_walls(
-            &mut state.at_walls,
-            walls,
-            state.base,
-            disks,
-            (on_disks, from_walls),
-            step,
-            &mut tally,
-        );
+        let mut sums = Sums::default();
+        between_disks(&laws, &mut state.pairs, bodies, on_disks, &mut sums);
+        let ours = (on_disks, &mut *from_walls);
+        at_walls(&laws, &mut state.at_walls, (walls, state.base), bodies, ours, &mut sums);
         let vertical = from_walls.chunks_exact(2).zip(walls);
         state.base_force = vertical.map(|(force, wall)| wall.follows_base * force[1]).sum();
-        tally
+        sums.tally()
     }
 
     /// Searches anew if a disk or the base has moved by half the margin since the last search.
     fn search_if_due(&mut self, time: f64) -> Result<(), Breakdown> {
         let state = &self.state;
-        let mut farthest = 0.0;
-        for (now, then) in state.places().iter().zip(&state.searched) {
-            let (dx, dy) = (now[0] - then[0], now[1] - then[1]);
-            let squared = dx * dx + dy * dy;
-            farthest = if squared > farthest { squared } else { farthest };
-        }
+        let farthest = farthest_squared(state.places(), &state.searched);
         let base_moved = (state.base.displacement - state.searched_base).abs();
-        let limit = 0.5 * self.margin;
+        let limit = 0.5 * state.searched_margin;
         if farthest < limit * limit && base_moved < limit {
             return Ok(());
         }
@@ -380,19 +382,20 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         state.searched.extend_from_slice(&state.position.as_chunks().0[..count]);
         state.searched_base = state.base.displacement;
         state.searched_step = state.steps;
+        let rates = state.rates()[..count].iter();
+        let squares = rates.map(|[vx, vy, _]| vx * vx + vy * vy);
+        let fastest = squares.fold(0.0, f64::max).sqrt().max(state.base.velocity.abs());
+        state.searched_margin = inner_margin(fastest, self.setup.time_step, self.smallest_radius);
         let cloud = Cloud {
             places: &state.searched,
             radii: &self.radii,
-            margin: self.margin,
+            margin: state.searched_margin,
         };
-        self.grid.find_pairs(cloud, &mut state.pairs);
-        self.grid
+        self.neighbours.find_pairs(cloud, &mut state.pairs);
+        self.neighbours
             .find_at_walls(cloud, &self.setup.walls, state.searched_base, &mut state.at_walls);
     }
 }
-
-/// Gap, in smallest radii, up to which disks are candidates: lists last long at rest and stay short in flight.
-const MARGIN: f64 = 0.15;
 
 fn coordinates<D>(state: &mut State<D>) -> Coordinates<'_> {
     Coordinates {

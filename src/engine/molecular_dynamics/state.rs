@@ -34,6 +34,8 @@ pub struct State<D> {
     pub searched_base: f64,
     /// Step of the last search.
     pub searched_step: u64,
+    /// Gap \[m\] below which pairs are listed since the last search.
+    pub searched_margin: f64,
     /// Vertical force \[N\] of the base on the disks now.
     pub base_force: f64,
     /// Power \[W\] lost in the dashpots now.
@@ -76,6 +78,7 @@ impl<D: Clone> Clone for State<D> {
             base,
             searched_base,
             searched_step,
+            searched_margin,
             ..
         } = *source;
         let Self {
@@ -87,6 +90,7 @@ impl<D: Clone> Clone for State<D> {
             ..
         } = *source;
         (self.steps, self.base, self.searched_base, self.searched_step) = (steps, base, searched_base, searched_step);
+        self.searched_margin = searched_margin;
         (self.base_force, self.dissipated_power) = (base_force, dissipated_power);
         (self.energy_input, self.energy_lost, self.contacts) = (energy_input, energy_lost, contacts);
     }

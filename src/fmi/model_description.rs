@@ -1,9 +1,9 @@
 //! Variable table in, `modelDescription.xml` out, for both versions of the standard.
 //!
 //! Guarantees: the start values are those of a new instance, the capability flags say what is there and no more, and the
-//! same input gives the same bytes (the date is part of the input). Outputs depend on no input at the same instant: they change in a step
-//! only, so that an importer need not look for algebraic loops. When initialisation ends they may depend on everything,
-//! which the standards say by leaving the dependencies out.
+//! same input gives the same bytes (the date is part of the input). Outputs depend on no input at the same instant: they
+//! change in a step only, so that an importer need not look for algebraic loops. When initialisation ends they may depend
+//! on everything, which the standards say by leaving the dependencies out.
 
 mod types;
 mod variables;

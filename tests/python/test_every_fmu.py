@@ -79,7 +79,7 @@ def reset_equals_a_new_instance(fmu: Path, unpacked: Path) -> None:
         real = slave.setReal if description.fmiVersion == "2.0" else slave.setFloat64
         runs = []
         for _ in range(2):
-            for n in range(10):
+            for n in range(5):
                 slave.doStep(n * 0.01, 0.01)
             runs.append(list(getter(slave)(outputs)))
             slave.terminate()

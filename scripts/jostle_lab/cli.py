@@ -10,16 +10,20 @@ from jostle_lab.accelerometer import Accelerometer
 from jostle_lab.compare import compare_exchanges
 from jostle_lab.coupling import Exchange
 from jostle_lab.driver import CARRIED_MASSES, GBS_250F38CP01_04
-from jostle_lab.errors import LabError
+from jostle_lab.errors import LabError, require
 from jostle_lab.experiment import Setup
 from jostle_lab.figures import draw_all
 from jostle_lab.fmu_grains import FmuFactory, fingerprint
 from jostle_lab.loudspeaker import Loudspeaker
 from jostle_lab.peers import compare
+from jostle_lab.ratchet.command import ratchet_demo
+from jostle_lab.ratchet.page import ratchet_page
 from jostle_lab.report import write_report
 from jostle_lab.results import Results
 from jostle_lab.run import Plan, run
+from jostle_lab.sweep.command import sweep
 from jostle_lab.thesis.command import figure
+from jostle_lab.torque_demo import demonstrate
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -31,6 +35,9 @@ app = typer.Typer(
 )
 
 app.command()(figure)
+app.command()(sweep)
+app.command()(ratchet_page)
+app.command()(ratchet_demo)
 
 DEMO_AMPLITUDES = "1,0.7,0.5,0.35,0.25,0.18,0.12,0.08,0.05"
 
@@ -130,6 +137,26 @@ def exchanges(
 ) -> None:
     """Compare the coupling error and the cost of the three orders of exchange for several step sizes."""
     typer.echo(compare_exchanges(FmuFactory(str(fmu), _parameters(parameters)), seconds, amplitude))
+
+
+@app.command()
+def torque_demo(
+    fmi2: Annotated[Path, typer.Option(help="three_disk FMU for FMI 2.0.")] = Path("build/three_disk_fmi2.fmu"),
+    fmi3: Annotated[Path, typer.Option(help="three_disk FMU for FMI 3.0.")] = Path("build/three_disk.fmu"),
+    results: ResultsOption = Path("results/torque"),
+    sample: Annotated[
+        float, typer.Option(help="Time between actions of the controller [s], whole milliseconds.")
+    ] = 5e-3,
+    parameters: SetOption = None,
+) -> None:
+    """Hold the angular velocity of a disk by torque, in spite of stick and slip: numbers, a table and a picture."""
+    milliseconds = 1e3 * require("--sample", sample, 1e-3, 1.0, "Give a time in seconds, such as 0.005.")
+    if abs(milliseconds - round(milliseconds)) > 1e-6:
+        raise LabError(f"--sample = {sample:g} s is not a whole number of milliseconds. Write, say, --sample 0.005")
+    _, _, page = paths = demonstrate(fmi2, fmi3, results, round(milliseconds) / 1e3, dict(_parameters(parameters)))
+    typer.echo(page.read_text())
+    for path in paths:
+        typer.echo(path)
 
 
 @app.command()

@@ -4,6 +4,7 @@
 
 mod assignments;
 mod describe;
+mod fields;
 mod fmu;
 mod replay;
 mod run;
@@ -11,6 +12,7 @@ mod scenes;
 #[cfg(test)]
 mod test_scene;
 mod text;
+mod theory;
 
 use std::fmt;
 use std::io;
@@ -32,9 +34,11 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Describe(describe::Describe),
+    Fields(fields::Fields),
     Fmu(fmu::Fmu),
     Replay(replay::Replay),
     Run(run::Run),
+    Theory(theory::Theory),
 }
 
 /// Which scene, as what component: shared by all commands.
@@ -120,8 +124,10 @@ pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Describe(describe) => describe.execute(),
         Command::Replay(replay) => replay.execute(),
+        Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
         Command::Run(run) => run.execute(),
+        Command::Theory(theory) => theory.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

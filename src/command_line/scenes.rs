@@ -3,6 +3,9 @@
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
+use jostle::scene::three_disk::{
+    ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
+};
 use jostle::scene::wedge::{
     WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
     WedgeMolecularDynamicsOnSine,
@@ -56,6 +59,10 @@ scenes![
     WedgeMolecularDynamicsOnSine,
     RatchetOnInput,
     RatchetOnSine,
+    ThreeDiskOnInput,
+    ThreeDiskOnHarmonicTorque,
+    ThreeDiskOnRandomSupports,
+    ThreeDiskOnSine,
 ];
 
 /// Position of the card with this scene, engine and drive.

@@ -2,4 +2,5 @@
 
 pub mod event_driven;
 pub mod molecular_dynamics;
+pub mod three_disk;
 pub mod wedge;

@@ -6,7 +6,7 @@
 
 use crate::scene::{Causality, Table, Variable};
 
-/// Last part of a name and that of its derivative.
+/// Last part of a name and that of its derivative. Besides, `torque.rate` is that of `torque`, whatever the name.
 const PAIRS: [(&str, &str); 3] = [
     ("angle", "angular_velocity"),
     ("position", "velocity"),
@@ -17,9 +17,13 @@ const PAIRS: [(&str, &str); 3] = [
 pub fn of(table: &Table, position: usize) -> Option<usize> {
     let row = table.rows().get(position)?;
     let (stem, index) = row.name.split_at(row.name.find('[').unwrap_or(row.name.len()));
-    let (_, rate) = PAIRS.iter().find(|(name, _)| ends_with_part(stem, name))?;
-    let prefix = stem.trim_end_matches(|letter| letter != '.');
-    let derivative = table.position(&format!("{prefix}{rate}{index}"))?;
+    let derivative = match PAIRS.iter().find(|(name, _)| ends_with_part(stem, name)) {
+        Some((_, rate)) => {
+            let prefix = stem.trim_end_matches(|letter| letter != '.');
+            table.position(&format!("{prefix}{rate}{index}"))?
+        }
+        None => table.position(&format!("{stem}.rate{index}"))?,
+    };
     (table.rows()[derivative].causality == row.causality).then_some(derivative)
 }
 
@@ -52,9 +56,14 @@ mod tests {
             output("disk.angular_velocity[2]"),
             output("rectangle"),
             output("angular_velocity"),
+            input("torque"),
+            input("torque.rate"),
         ]);
         let found: Vec<_> = (0..table.rows().len()).map(|position| of(&table, position)).collect();
-        assert_eq!(found, [Some(1), None, None, None, Some(5), None, None, None]);
+        assert_eq!(
+            found,
+            [Some(1), None, None, None, Some(5), None, None, None, Some(9), None]
+        );
         assert!(any(&table, Causality::Input) && any(&table, Causality::Output));
         assert!(!any(&table, Causality::Parameter));
     }

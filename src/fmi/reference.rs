@@ -8,7 +8,7 @@
 use std::f64::consts::TAU;
 
 use crate::error::{Error, Result};
-use crate::scene::{Causality, Choice, Scene, Simulation, Table, Value};
+use crate::scene::{Causality, Choice, Kind, Scene, Simulation, Table, Unit, Value};
 
 use super::derivatives;
 
@@ -72,23 +72,26 @@ fn of(table: &Table, causality: Causality) -> Vec<usize> {
         .collect()
 }
 
-/// Values of the inputs at `time` \[s\]: a (1 - cos) where the next input is the rate of this one, and that rate; a sine
-/// of the nominal size for any other.
+/// Values of the inputs at `time` \[s\]: a (1 - cos) where the next input is the rate of this one, and that rate; any other
+/// stays at its start value.
 fn motion(table: &Table, inputs: &[usize], omega: f64, time: f64) -> Vec<f64> {
-    let nominal = |position: usize| match &table.rows()[position].kind {
-        crate::scene::Kind::Real(quantity) => quantity.nominal,
+    let swing = |position: usize| match &table.rows()[position].kind {
+        Kind::Real(quantity) if quantity.unit == Unit::Metre => ACCELERATION / omega.powi(2),
+        Kind::Real(quantity) => quantity.nominal,
         _ => 1.0,
     };
-    let swing = ACCELERATION / omega.powi(2);
     let phase = omega * time;
     let value = |position: &usize| {
         let integral = inputs
             .iter()
             .find(|input| derivatives::of(table, **input) == Some(*position));
         match (derivatives::of(table, *position), integral) {
-            (Some(_), _) => swing * (1.0 - phase.cos()),
-            (None, Some(_)) => swing * omega * phase.sin(),
-            (None, None) => nominal(*position) * phase.sin(),
+            (Some(_), _) => swing(*position) * (1.0 - phase.cos()),
+            (None, Some(integral)) => swing(*integral) * omega * phase.sin(),
+            (None, None) => match table.rows()[*position].start() {
+                Value::Real(start) => start,
+                Value::Integer(start) => start as f64,
+            },
         }
     };
     inputs.iter().map(value).collect()

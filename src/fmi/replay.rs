@@ -6,6 +6,7 @@
 //! collisions amplify that. What is amplified more than [`TOLERANCE`] allows is no longer rounding.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -95,10 +96,11 @@ fn compare(description: &Description, table: &Recorded, binary: &[u8]) -> Result
         let mut arrays = HashMap::new();
         for index in &outputs {
             let column = &columns[index - 1];
-            if !arrays.contains_key(&column.reference) {
-                arrays.insert(column.reference, instance.get(column.reference, column.span)?);
-            }
-            let found = arrays[&column.reference][column.offset];
+            let values = match arrays.entry(column.reference) {
+                Entry::Occupied(read) => read.into_mut(),
+                Entry::Vacant(unread) => unread.insert(instance.get(column.reference, column.span)?),
+            };
+            let found = values[column.offset];
             let scale = table.largest(*index).max(column.nominal);
             report.note(row[*index], found, scale, (&table.names[*index], row[0]));
         }
@@ -117,7 +119,7 @@ impl Report {
         }
         self.differing += 1;
         let difference = (found - expected).abs() / scale;
-        if !(difference <= self.largest) || self.place.is_none() {
+        if difference.is_nan() || difference > self.largest || self.place.is_none() {
             self.largest = difference;
             self.place = Some((name.into(), time));
         }
@@ -169,11 +171,11 @@ struct Description {
     version: super::Version,
     token: String,
     identifier: String,
-    variables: HashMap<String, Entry>,
+    variables: HashMap<String, Described>,
 }
 
 #[derive(Default)]
-struct Entry {
+struct Described {
     reference: u32,
     span: Option<usize>,
     nominal: Option<f64>,
@@ -225,7 +227,7 @@ impl Description {
             }
             _ => match (get("name"), number("valueReference")) {
                 (Some(name), Some(reference)) => {
-                    let entry = Entry {
+                    let entry = Described {
                         reference: reference as u32,
                         span: None,
                         nominal: number("nominal"),

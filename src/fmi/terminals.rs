@@ -1,19 +1,22 @@
 //! Variable table in, `terminalsAndIcons/terminalsAndIcons.xml` of FMI 3.0 out: what belongs to one mechanical flange.
 //!
-//! Variables that share the prefix of an input (`base.` of `base.displacement`) make one terminal, named by the prefix; an
-//! input without a prefix, such as a torque, is one of its own name.
+//! An input that comes with its rate is one side of a flange: a motion, a torque. The variables that share its prefix (`base.`
+//! of `base.displacement`) make one terminal, named by the prefix; without a prefix, such as `torque`, its name is the
+//! terminal's.
 
 use std::collections::BTreeSet;
 
-use super::xml;
-use crate::scene::{Causality, Variable};
+use super::{derivatives, xml};
+use crate::scene::{Causality, Table, Variable};
 
 /// The file; without inputs it states the icon alone.
 pub fn write(rows: &[Variable]) -> String {
+    let table = Table::new(rows.to_vec());
     let flanges: BTreeSet<&str> = rows
         .iter()
-        .filter(|row| row.causality == Causality::Input)
-        .map(|row| split(&row.name).0)
+        .enumerate()
+        .filter(|(position, row)| row.causality == Causality::Input && derivatives::of(&table, *position).is_some())
+        .map(|(_, row)| split(&row.name).0)
         .collect();
     xml::document(|xml| {
         xml::element(
@@ -82,7 +85,10 @@ mod tests {
         let output = |name: &str| Variable::output(name, Unit::One, 1.0, "");
         let text = write(&[
             input("base.displacement"),
+            input("base.velocity"),
             input("torque"),
+            input("torque.rate"),
+            input("measure.mark"),
             output("base.reaction_force"),
             output("energy.lost"),
         ]);
@@ -91,10 +97,13 @@ mod tests {
             ("base.displacement", "displacement"),
             ("base.reaction_force", "reaction_force"),
             ("torque", "torque"),
+            ("torque.rate", "rate"),
         ] {
             let member = format!(r#"variableName="{variable}" memberName="{member}""#);
             assert!(text.contains(&member), "{text}");
         }
-        assert!(!text.contains("energy") && !write(&[output("torque")]).contains("Terminals>"));
+        assert!(
+            !text.contains("energy") && !text.contains("measure") && !write(&[output("torque")]).contains("Terminals>")
+        );
     }
 }

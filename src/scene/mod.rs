@@ -4,9 +4,11 @@
 //! it. Neither names FMI.
 
 pub mod base_drive;
+pub mod hard_disks;
 pub mod packing;
 pub mod ratchet;
 mod simulation;
+pub mod three_disk;
 pub mod values;
 pub mod variables;
 pub mod wedge;

@@ -20,7 +20,7 @@ pub enum Access {
 }
 
 impl Access {
-    /// A count among the outputs may be read as a real too: there are importers that read all outputs so.
+    /// A count or an option among the outputs may be read as a real too: there are importers that read all outputs so.
     fn fits(self, row: &Variable) -> bool {
         match row.kind {
             Kind::Real(_) => self == Self::Real,
@@ -28,6 +28,7 @@ impl Access {
                 matches!(self, Self::Integer | Self::AnyInteger)
                     || self == Self::Real && row.causality == Causality::Output
             }
+            Kind::Enumeration { .. } if self == Self::Real => row.causality == Causality::Output,
             Kind::Long { .. } | Kind::Enumeration { .. } => matches!(self, Self::Long | Self::AnyInteger),
         }
     }

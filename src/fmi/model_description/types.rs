@@ -114,6 +114,8 @@ pub fn quantity_name(unit: Unit) -> Option<&'static str> {
         Unit::NewtonPerMetre => "TranslationalSpringConstant",
         Unit::NewtonSecond => "Impulse",
         Unit::Joule => "Energy",
+        Unit::Watt => "Power",
+        Unit::NewtonMetre => "Torque",
         _ => return None,
     })
 }

@@ -52,7 +52,7 @@ impl<S: Scene> Component<S> {
             scene: std::marker::PhantomData,
         };
         // SAFETY: a living instance.
-        let entered = unsafe { fmi3::enter_initialization_mode::<S>(pointer, 0.0, 0, 0.0) };
+        let entered = unsafe { fmi3::enter_initialization_mode::<S>(pointer, None, 0.0, 0, 0.0) };
         // SAFETY: a living instance.
         let left = unsafe { common::transition::<S>(pointer, Three, "exit", Instance::exit_initialization) };
         assert_eq!((entered, left), (Status::Ok, Status::Ok));

@@ -7,8 +7,10 @@ mod describe;
 mod fields;
 mod fmu;
 mod replay;
+mod report;
 mod run;
 mod scenes;
+mod stability;
 #[cfg(test)]
 mod test_scene;
 mod text;
@@ -37,7 +39,9 @@ enum Command {
     Fields(fields::Fields),
     Fmu(fmu::Fmu),
     Replay(replay::Replay),
+    Report(report::Report),
     Run(run::Run),
+    Stability(stability::Stability),
     Theory(theory::Theory),
 }
 
@@ -126,7 +130,9 @@ pub fn main() -> ExitCode {
         Command::Replay(replay) => replay.execute(),
         Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
+        Command::Report(report) => report.execute(),
         Command::Run(run) => run.execute(),
+        Command::Stability(stability) => stability.execute(),
         Command::Theory(theory) => theory.execute(),
     };
     match done {

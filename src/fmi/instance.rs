@@ -12,7 +12,7 @@ use super::life_cycle::{Call, Phase};
 use super::snapshot::Clock;
 use super::{arrays, token};
 use crate::error::{Error, Result};
-use crate::scene::{Choice, Reached, Scene, Table, Values};
+use crate::scene::{Causality, Choice, Kind, Reached, Scene, Table, Value, Values};
 pub use values::Access;
 
 /// Importers add up communication points in their own way; as much of a step may differ from ours.
@@ -101,7 +101,37 @@ impl<S: Scene> Instance<S> {
         &self.token
     }
 
-    /// Sets start and, if known, stop time \[s\]. The importer's tolerance is not used: steps are fixed or event-driven.
+    /// [`Instance::set_up`] with the importer's relative tolerance, if it has one. It goes to the parameter `tolerance` of
+    /// scenes that have one and were given no other; a coarser one than the scene knows is kept at the scene's coarsest.
+    ///
+    /// # Errors
+    /// Those of [`Instance::set_up`]; a tolerance that is not positive or finer than the scene can keep.
+    pub fn set_up_within(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<()> {
+        let parameter = tolerance.and_then(|tolerance| self.parameter_for(tolerance));
+        if let Some((position, value)) = parameter {
+            self.values.table().rows()[position].check(value)?;
+        }
+        self.set_up(start, stop)?;
+        match parameter {
+            Some((position, value)) => self.values.set(position, value),
+            None => Ok(()),
+        }
+    }
+
+    /// Position and value that a tolerance gives to the parameter `tolerance`, if it is still at its start value.
+    fn parameter_for(&self, tolerance: f64) -> Option<(usize, Value)> {
+        let position = self.values.table().position("tolerance")?;
+        let row = &self.values.table().rows()[position];
+        let untouched = row.causality == Causality::Parameter && self.values.get(position) == Some(row.start());
+        let Kind::Real(quantity) = &row.kind else {
+            return None;
+        };
+        let coarser = tolerance.is_finite() && tolerance > quantity.max;
+        let kept = if coarser { quantity.max } else { tolerance };
+        untouched.then_some((position, Value::Real(kept)))
+    }
+
+    /// Sets start and, if known, stop time \[s\].
     ///
     /// # Errors
     /// Wrong phase; times that are not finite or not in order.

@@ -41,7 +41,7 @@ class Effort:
     seeds: int
 
 
-QUICK, FULL = Effort(10.0, 4), Effort(60.0, 8)
+QUICK, FULL = Effort(3.0, 4), Effort(20.0, 8)
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,9 @@ macro_rules! export_fmi2 {
                     pointer: Opaque, tolerance_defined: c_int, tolerance: f64, start: f64, stop_defined: c_int,
                     stop: f64,
                 ) -> Status =
-                    fmi2::setup_experiment::<$scene>(pointer, start, stop_defined, stop);
+                    fmi2::setup_experiment::<$scene>(
+                        pointer, (tolerance_defined != 0).then_some(tolerance), start, stop_defined, stop
+                    );
                 fn fmi2EnterInitializationMode(pointer: Opaque) -> Status =
                     common::transition::<$scene>(pointer, Two, "fmi2EnterInitializationMode", Instance::enter_initialization);
                 fn fmi2ExitInitializationMode(pointer: Opaque) -> Status =

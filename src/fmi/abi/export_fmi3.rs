@@ -60,7 +60,9 @@ macro_rules! export_fmi3 {
                     pointer: Opaque, tolerance_defined: Boolean, tolerance: f64, start: f64,
                     stop_defined: Boolean, stop: f64,
                 ) -> Status =
-                    fmi3::enter_initialization_mode::<$scene>(pointer, start, stop_defined, stop);
+                    fmi3::enter_initialization_mode::<$scene>(
+                        pointer, (tolerance_defined != 0).then_some(tolerance), start, stop_defined, stop
+                    );
                 fn fmi3ExitInitializationMode(pointer: Opaque) -> Status =
                     common::transition::<$scene>(pointer, Three, "fmi3ExitInitializationMode", Instance::exit_initialization);
                 fn fmi3EnterEventMode(pointer: Opaque) -> Status =

@@ -81,11 +81,19 @@ pub unsafe fn instantiate<S: Scene>(
 ///
 /// # Safety
 /// As for [`enter`].
-pub unsafe fn setup_experiment<S: Scene>(pointer: Opaque, start: f64, stop_defined: c_int, stop: f64) -> Status {
+pub unsafe fn setup_experiment<S: Scene>(
+    pointer: Opaque,
+    tolerance: Option<f64>,
+    start: f64,
+    stop_defined: c_int,
+    stop: f64,
+) -> Status {
     // SAFETY: passed on.
     unsafe {
         enter::<S>(pointer, Two, "fmi2SetupExperiment", |inner| {
-            inner.instance.set_up(start, (stop_defined != 0).then_some(stop))
+            inner
+                .instance
+                .set_up_within(tolerance, start, (stop_defined != 0).then_some(stop))
         })
     }
 }

@@ -92,6 +92,7 @@ pub fn refuse_instance<S: Scene>(function: &str, environment: Opaque, log: Optio
 /// As for [`enter`].
 pub unsafe fn enter_initialization_mode<S: Scene>(
     pointer: Opaque,
+    tolerance: Option<f64>,
     start: f64,
     stop_defined: Boolean,
     stop: f64,
@@ -99,7 +100,7 @@ pub unsafe fn enter_initialization_mode<S: Scene>(
     // SAFETY: passed on.
     unsafe {
         common::transition::<S>(pointer, Three, "fmi3EnterInitializationMode", |instance| {
-            instance.set_up(start, (stop_defined != FALSE).then_some(stop))?;
+            instance.set_up_within(tolerance, start, (stop_defined != FALSE).then_some(stop))?;
             instance.enter_initialization()
         })
     }

@@ -14,13 +14,16 @@ from jostle_lab.errors import LabError, require
 from jostle_lab.experiment import Setup
 from jostle_lab.figures import draw_all
 from jostle_lab.fmu_grains import FmuFactory, fingerprint
+from jostle_lab.leave_out import leave_out
 from jostle_lab.loudspeaker import Loudspeaker
-from jostle_lab.peers import compare
+from jostle_lab.peers import compare, compare_molecular_dynamics
 from jostle_lab.ratchet.command import ratchet_demo
 from jostle_lab.ratchet.page import ratchet_page
 from jostle_lab.report import write_report
+from jostle_lab.report_command import report
 from jostle_lab.results import Results
 from jostle_lab.run import Plan, run
+from jostle_lab.stability_page import stability
 from jostle_lab.sweep.command import sweep
 from jostle_lab.thesis.command import figure
 from jostle_lab.torque_demo import demonstrate
@@ -35,6 +38,9 @@ app = typer.Typer(
 )
 
 app.command()(figure)
+app.command()(report)
+app.command()(leave_out)
+app.command()(stability)
 app.command()(sweep)
 app.command()(ratchet_page)
 app.command()(ratchet_demo)
@@ -180,13 +186,21 @@ def loudspeaker() -> None:
 
 @app.command()
 def peers(
-    source: Annotated[Path, typer.Argument(help="C++ source of an event-driven code, such as refed.cpp.")],
+    source: Annotated[Path, typer.Argument(help="C++ source, such as refed.cpp, or refdem.cpp with --state.")],
     rounds: Annotated[int, typer.Option(min=1, max=50, help="Runs of each program, in turn.")] = 5,
+    state: Annotated[
+        list[Path] | None, typer.Option(help="State of molecular dynamics, such as s60.txt; may be repeated.")
+    ] = None,
 ) -> None:
-    """Measure the event-driven engine beside another program on smooth elastic disks: nanoseconds a collision."""
-    typer.echo("disks   ours [ns]  theirs [ns]  ratio")
-    for disks, ours, theirs, ratio in compare(source, rounds):
-        typer.echo(f"{disks:6d} {ours:10.1f} {theirs:12.1f} {ratio:6.2f}")
+    """Measure an engine beside another program: nanoseconds a collision, or with --state a disk and step."""
+    typer.echo("case            ours [ns]  theirs [ns]  ratio")
+    rows: list[tuple[str, float, float, float]]
+    if state:
+        rows = compare_molecular_dynamics(source, state, rounds)
+    else:
+        rows = [(f"{row[0]} disks", *row[1:]) for row in compare(source, rounds)]
+    for case, ours, theirs, ratio in rows:
+        typer.echo(f"{case:14} {ours:10.2f} {theirs:12.2f} {ratio:6.2f}")
 
 
 def _present(folder: Path) -> None:

@@ -6,8 +6,11 @@ mod assignments;
 mod describe;
 mod fields;
 mod fmu;
+mod replay;
+mod report;
 mod run;
 mod scenes;
+mod stability;
 #[cfg(test)]
 mod test_scene;
 mod text;
@@ -35,7 +38,10 @@ enum Command {
     Describe(describe::Describe),
     Fields(fields::Fields),
     Fmu(fmu::Fmu),
+    Replay(replay::Replay),
+    Report(report::Report),
     Run(run::Run),
+    Stability(stability::Stability),
     Theory(theory::Theory),
 }
 
@@ -121,9 +127,12 @@ impl fmt::Display for Failure {
 pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Describe(describe) => describe.execute(),
+        Command::Replay(replay) => replay.execute(),
         Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
+        Command::Report(report) => report.execute(),
         Command::Run(run) => run.execute(),
+        Command::Stability(stability) => stability.execute(),
         Command::Theory(theory) => theory.execute(),
     };
     match done {

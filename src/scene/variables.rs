@@ -116,6 +116,14 @@ impl Unit {
         }
     }
 
+    /// A number with its unit, as one says it: without one where there is none.
+    fn said_of(self, number: f64) -> String {
+        match self {
+            Self::One => number.to_string(),
+            _ => format!("{number} {}", self.name()),
+        }
+    }
+
     /// Exponents of (kg, m, s, rad) in SI base units.
     pub const fn exponents(self) -> (i32, i32, i32, i32) {
         match self {
@@ -289,7 +297,7 @@ impl Variable {
                 }
                 Err(Error::parameter(
                     &self.name,
-                    format!("{real} {}", quantity.unit.name()),
+                    quantity.unit.said_of(real),
                     format!("a finite number from {} to {}", quantity.min, quantity.max),
                     "Give a value in this range.",
                 ))

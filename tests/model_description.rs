@@ -10,7 +10,7 @@ use std::path::Path;
 use jostle::fmi::Version;
 use jostle::fmi::bundle::Component;
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
-use jostle::scene::packing::{PackingOnInput, PackingOnSine};
+use jostle::scene::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
 use jostle::scene::three_disk::{
     ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
@@ -51,6 +51,16 @@ fn packing_on_input() {
 #[test]
 fn packing_on_sine() {
     committed::<PackingOnSine>();
+}
+
+#[test]
+fn located_packing_on_input() {
+    committed::<LocatedPackingOnInput>();
+}
+
+#[test]
+fn located_packing_on_sine() {
+    committed::<LocatedPackingOnSine>();
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The scenes that the command line knows. A new scene is one line in [`with_scene`]'s table.
 
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
-use jostle::scene::packing::{PackingOnInput, PackingOnSine};
+use jostle::scene::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
 use jostle::scene::three_disk::{
     ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
@@ -50,6 +50,8 @@ macro_rules! scenes {
 scenes![
     PackingOnInput,
     PackingOnSine,
+    LocatedPackingOnInput,
+    LocatedPackingOnSine,
     HardPackingOnInput,
     HardPackingOnSine,
     WedgeMap,

@@ -1,6 +1,7 @@
 //! What advances time.
 
 pub mod event_driven;
+pub mod located_dynamics;
 pub mod molecular_dynamics;
 pub mod three_disk;
 pub mod wedge;

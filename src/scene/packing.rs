@@ -4,13 +4,15 @@ mod equations;
 pub mod event_driven;
 pub mod hard;
 mod rows;
+pub mod soft;
 
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{ElasticSkin, LinearDashpot};
-use crate::drive::{FollowsInput, Sine};
+use crate::drive::{Drive, FollowsInput, Sine};
+use crate::engine::located_dynamics::LocatedDynamics;
 use crate::engine::molecular_dynamics::{
-    Breakdown, ContactLaws, Integrator, MolecularDynamics, Setup, State, TimeStepLimits, VelocityVerlet,
+    Breakdown, ContactLaws, MolecularDynamics, Setup, TimeStepLimits, VelocityVerlet,
 };
 use crate::error::{Error, Result, are_sane};
 use crate::geometry::{Disk, Wall};
@@ -19,6 +21,7 @@ use crate::packing::{RadiusClass, RadiusDistribution, advancing_front};
 use super::base_drive::BaseDrive;
 use super::{Card, Choice, Scene};
 use crate::scene::{OutputWriter, Values, Variable};
+use soft::SoftEngine;
 
 /// Packing whose base follows the inputs `base.displacement` and `base.velocity`.
 pub type PackingOnInput = Packing<FollowsInput, VelocityVerlet>;
@@ -26,15 +29,23 @@ pub type PackingOnInput = Packing<FollowsInput, VelocityVerlet>;
 /// Packing whose base moves as a sine.
 pub type PackingOnSine = Packing<Sine, VelocityVerlet>;
 
+/// The same on inputs and on a sine, of fourth order with located contact events.
+pub type LocatedPackingOnInput = SoftPacking<LocatedDynamics<FollowsInput>>;
+/// See [`LocatedPackingOnInput`].
+pub type LocatedPackingOnSine = SoftPacking<LocatedDynamics<Sine>>;
+
+/// Packing with drive D and integrator I of steps that do not know of contact events.
+pub type Packing<D, I> = SoftPacking<MolecularDynamics<I, D>>;
+
 const NAME: &str = "packing";
 
 /// Index of the vibrating floor among the walls.
 const FLOOR: usize = 0;
 
-/// Disks in a box of two walls and a vibrating floor: drive D, integrator I.
+/// Disks in a box of two walls and a vibrating floor, advanced by the engine E.
 #[derive(Debug)]
-pub struct Packing<D, I> {
-    engine: MolecularDynamics<I, D>,
+pub struct SoftPacking<E> {
+    engine: E,
     limits: TimeStepLimits,
     report: Report,
 }
@@ -52,22 +63,22 @@ pub struct Report {
     pub start_energy: f64,
 }
 
-/// State of a [`Packing`]: the engine's, and the report of the last communication step.
+/// State of a [`SoftPacking`]: the engine's, and the report of the last communication step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PackingState<D> {
+pub struct PackingState<S> {
     /// Disks, contacts and base on the time grid.
-    pub engine: State<D>,
+    pub engine: S,
     /// The last communication step.
     pub report: Report,
 }
 
-impl<D: BaseDrive, I: Integrator> Packing<D, I> {
+impl<E: SoftEngine> SoftPacking<E> {
     /// A packing of given `disks` at rest, in a box of the width that `values` tell.
     ///
     /// # Errors
     /// A time step that the contacts do not allow, by name.
     pub fn of_disks(disks: &[Disk], start_time: f64, values: &Values) -> Result<Self> {
-        let drive = D::new(start_time, values)?;
+        let drive = E::Drive::new(start_time, values)?;
         let normal = LinearDashpot {
             stiffness: values.real("contact.normal_stiffness"),
             damping: values.real("contact.normal_damping"),
@@ -78,7 +89,7 @@ impl<D: BaseDrive, I: Integrator> Packing<D, I> {
         };
         let laws = ContactLaws { normal, skin };
         let masses = masses_of(disks, values);
-        let limits = TimeStepLimits::of(&laws, &masses, drive.frequency());
+        let limits = E::limits(&laws, &masses, drive.frequency(), values);
         let time_step = chosen_time_step(values.real("time_step"), &limits)?;
         let half_width = 0.5 * values.real("box.width");
         let walls = vec![
@@ -99,7 +110,7 @@ impl<D: BaseDrive, I: Integrator> Packing<D, I> {
             time_step,
             start_time,
         };
-        let engine = MolecularDynamics::new(setup, &disks, drive);
+        let engine = E::new(setup, &disks, drive);
         let energies = engine.energies();
         let start_energy = energies.kinetic + energies.potential + energies.elastic;
         let report = Report {
@@ -112,7 +123,7 @@ impl<D: BaseDrive, I: Integrator> Packing<D, I> {
     }
 
     /// The engine, to look at everything that is no output.
-    pub fn engine(&self) -> &MolecularDynamics<I, D> {
+    pub fn engine(&self) -> &E {
         &self.engine
     }
 }
@@ -209,20 +220,16 @@ pub(super) fn refusal_of(scene: &'static str, breakdown: Breakdown) -> Error {
     }
 }
 
-impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
-    type State = PackingState<D>;
+impl<E: SoftEngine> Scene for SoftPacking<E> {
+    type State = PackingState<E::State>;
 
     fn card() -> Card {
         Card {
             scene: NAME,
-            identifier: if D::NAME == "input" {
-                "jostle_packing"
-            } else {
-                "jostle_packing_sine"
-            },
-            engine: "molecular-dynamics",
-            drive: D::NAME,
-            description: "Packing of frictional disks in a box on a vibrating bottom, by molecular dynamics",
+            identifier: E::IDENTIFIER,
+            engine: E::NAME,
+            drive: E::Drive::NAME,
+            description: E::DESCRIPTION,
             equations: equations::HTML,
             disks: 1..=100_000,
             default_disks: 60,
@@ -232,7 +239,7 @@ impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
     }
 
     fn variables(choice: Choice) -> Vec<Variable> {
-        rows::rows(choice, D::variables())
+        rows::rows(choice, E::parameters(), E::Drive::variables())
     }
 
     fn new(choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
@@ -243,7 +250,7 @@ impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
         let from = self.report;
         let duration = end_time - from.time;
-        let drive = self.engine.state().drive.clone();
+        let drive = self.engine.drive_mut().clone();
         self.engine.drive_mut().aim(from.time, duration, values);
         if let Err(breakdown) = self.engine.advance_to(end_time) {
             *self.engine.drive_mut() = drive;
@@ -261,10 +268,9 @@ impl<D: BaseDrive, I: Integrator> Scene for Packing<D, I> {
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
-        let (engine, now) = (&self.engine, self.engine.now());
-        let count = engine.radii().len();
-        let (places, rates) = (&now.places()[..count], &now.rates()[..count]);
-        let mean = |axis: usize| rates.iter().map(|rate| rate[axis]).sum::<f64>() / count as f64;
+        let (engine, now) = (&self.engine, self.engine.look());
+        let soft::Look { places, rates, .. } = now;
+        let mean = |axis: usize| rates.iter().map(|rate| rate[axis]).sum::<f64>() / rates.len() as f64;
         let energies = engine.energies();
         let total = energies.kinetic + energies.potential + energies.elastic;
         outputs.real("chosen_time_step", engine.setup().time_step);

@@ -265,3 +265,42 @@ fn options_are_integers_in_two_and_64_bits_in_three() {
     assert_eq!(two.run((0, 5), 0.01), three.run((0, 5), 0.01));
     assert_ne!(two.run((5, 6), 0.01), Client::two().ready(&[]).run((0, 1), 0.01));
 }
+
+/// `tolerance` of the importer stands for the parameter that is called so, unless that was set; scenes without it ignore it.
+#[test]
+fn the_importers_tolerance_chooses_the_time_step() {
+    use jostle::fmi::bundle::Component;
+    use jostle::fmi::instance::Access;
+    use jostle::fmi::{token, value_reference};
+    use jostle::scene::packing::{LocatedPackingOnSine, PackingOnSine};
+    use jostle::scene::{Choice, Scene, Value};
+
+    fn step<S: Scene>(own: Option<f64>, importers: Option<f64>) -> Result<Value, String> {
+        let component = Component::of::<S>(Choice { disks: 3 }).unwrap();
+        let position = |name: &str| component.rows.iter().position(|row| row.name == name);
+        let token = token::write(&component.card, component.choice, &component.rows);
+        let mut instance = jostle::fmi::Instance::<S>::new(&token, Importer::default()).unwrap();
+        if let Some(own) = own {
+            let reference = value_reference(position("tolerance").unwrap());
+            instance.set(&[reference], Access::Real, |_| Value::Real(own)).unwrap();
+        }
+        let told = |error: jostle::Error| error.to_string();
+        instance.set_up_within(importers, 0.0, None).map_err(told)?;
+        instance.enter_initialization().map_err(told)?;
+        let reference = value_reference(position("chosen_time_step").unwrap());
+        instance.get(reference, Access::Real).map_err(told)
+    }
+    let located = step::<LocatedPackingOnSine>;
+    assert_eq!(located(None, Some(1e-8)), located(Some(1e-8), None));
+    assert_ne!(located(None, Some(1e-8)), located(None, None));
+    assert_eq!(located(Some(1e-7), Some(1e-8)), located(Some(1e-7), None));
+    assert_eq!(located(None, Some(0.5)), located(Some(1e-3), None));
+    for wrong in [0.0, -1.0, 1e-20, f64::NAN, f64::INFINITY] {
+        let refusal = located(None, Some(wrong)).unwrap_err();
+        assert!(refusal.contains("tolerance"), "{refusal}");
+    }
+    assert_eq!(
+        step::<PackingOnSine>(None, Some(0.5)),
+        step::<PackingOnSine>(None, None)
+    );
+}

@@ -127,8 +127,9 @@ def _plot(panel: Axes, found: Sequence[Line], connect: bool) -> None:
 
 
 def _deviation(line: Line, theory: Numbers) -> float:
-    """Largest deviation from a theory, relative to the largest velocity of the line."""
-    return float(np.max(np.abs(line.velocities - theory)) / np.max(np.abs(theory)))
+    """Largest deviation from a theory while no contact opens, relative to the largest velocity of the line."""
+    lasting = np.array([not found.opened for found in line.found])
+    return float(np.max(np.abs(line.velocities - theory)[lasting]) / np.max(np.abs(theory)))
 
 
 def linear(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Product:
@@ -181,11 +182,14 @@ def _onset(line: Line) -> float:
 
 
 def _lasting(found: Sequence[Line]) -> Statement:
-    opened = [
-        torque for line in found for torque, turned in zip(line.torques, line.found, strict=True) if turned.opened
-    ]
+    runs = [pair for line in found for pair in zip(line.torques, line.found, strict=True)]
+    opened = [torque for torque, turned in runs if turned.opened]
+    where = "; ".join(f"{t.tilt / math.pi:.2f} pi, {t.amplitude:.3f} N m" for t in opened)
     return Statement(
-        "5", "the disk never leaves its supports", f"{len(opened)} runs with an open contact", verdict(not opened)
+        "5.2.1",
+        "below the detachment tilt no contact opens",
+        f"{len(opened)} of {len(runs)} runs with an open contact" + (f": {where}, after a stop" if opened else ""),
+        Verdict.PARTLY if opened else Verdict.AGREES,
     )
 
 
@@ -292,7 +296,7 @@ def closed_form(laboratory: Laboratory, quick: bool, _seeds: int | None = None) 
             "5.2.4, Fig. 5.7",
             "simulations agree very well with 5.9",
             "largest deviation over the largest velocity: " + told(rigid),
-            verdict(max(rigid.values()) < 2e-2),
+            verdict(max(rigid.values()) < 1e-2),
         ),
         Statement(
             "5.2.4",

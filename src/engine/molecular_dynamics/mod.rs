@@ -9,7 +9,7 @@ mod contacts;
 mod forces;
 mod integrator;
 mod looks;
-mod neighbours;
+pub(crate) mod neighbours;
 mod setup;
 mod state;
 mod time_step;

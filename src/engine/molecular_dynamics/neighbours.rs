@@ -140,7 +140,7 @@ fn way_squared(now: &[[f64; 3]; 2], then: &[[f64; 3]; 2]) -> Two {
 
 /// Disks by cell, by counting sort. Scratch memory of a search: nothing in it outlives the search.
 #[derive(Debug, Clone, Default)]
-struct CellGrid {
+pub struct CellGrid {
     columns: usize,
     rows: usize,
     /// Cell of each disk.
@@ -164,7 +164,7 @@ pub struct Cloud<'a> {
 
 impl CellGrid {
     /// Replaces `pairs` by the indices of all pairs whose gap is less than the margin, in order.
-    fn find(&mut self, cloud: Cloud<'_>, pairs: &mut Vec<[u32; 2]>) {
+    pub fn find(&mut self, cloud: Cloud<'_>, pairs: &mut Vec<[u32; 2]>) {
         self.sort_into_cells(cloud);
         pairs.clear();
         for first in 0..cloud.places.len() {

@@ -1,7 +1,8 @@
-//! What the inertia of the disk's centre adds to a slide, to first order in `m omega_e^2 / k_n`.
+//! What inertia adds to a slide, to first order in `m omega_e^2 / k_n` and `m omega_e^2 / k_t`.
 //!
-//! Soft contacts let the centre follow the torque. When the last contact begins to slide the centre moves at
-//! `v ~ T' / (R k_n)`, and the disk rolls on the contact that still sticks at `omega = -v.t / R`. In the slide the centre
+//! Soft contacts let the disk follow the torque. When the last contact begins to slide the centre moves at
+//! `v ~ T' / (R k_n)`, and the disk rolls on the contact that still sticks and winds its skin up:
+//! `omega = -(v.t + tau' / k_t) / R`. In the slide the centre
 //! comes to rest: the normal forces deliver the impulse `-m v`, and with them friction an angular impulse. Both together
 //! are an angular velocity with which the slide starts, and over its duration they turn the disk on. The relative effect is
 //! `m omega_e^2 / (k_n (A_e / A_S - 1))`: largest just above a limit.
@@ -9,7 +10,7 @@
 use super::slide::{HarmonicTorque, slide};
 use super::{Corner, Limits, Setting, closed_form};
 
-/// P 5.9 with the inertia of the centre \[rad/s\], for contacts of stiffness `normal_stiffness` \[N/m\].
+/// P 5.9 with the inertia of the disk \[rad/s\], for contacts of stiffness `normal_stiffness` \[N/m\].
 ///
 /// `limits` should be those of the same contacts, [`super::Relaxed::limits`]. `None` where [`closed_form`] is. It holds if
 /// slides and rests last much longer than the oscillations of the disk on its contacts, of rate `gamma_n / (2 m)`, and
@@ -66,7 +67,7 @@ pub(super) fn kick(setting: &Setting, normal_stiffness: f64, corner: Corner) -> 
     // Velocity of the centre: the overlaps n / k_n grow along the lines of centres (s_1, c_1) and (-s_2, c_2).
     let (a, b) = (-n_1 / normal_stiffness, -n_2 / normal_stiffness);
     let (x, y) = ((a * c_2 - b * c_1) / s_12, (a * s_2 + b * s_1) / s_12);
-    let rolling = -(x * c_1 - y * s_1) / setting.radius;
+    let rolling = -(x * c_1 - y * s_1 + tau_1 / setting.tangential_stiffness) / setting.radius;
     // Impulses along (s_1, c_1) + slope (c_1, -s_1) and (-s_2, c_2) + slope (c_2, s_2) that stop the centre.
     let first = (s_1 + slope * c_1, c_1 - slope * s_1);
     let second = (-s_2 + slope * c_2, c_2 + slope * s_2);

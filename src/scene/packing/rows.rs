@@ -6,9 +6,10 @@ use crate::scene::{Unit, Variable};
 /// Names of the three radii that share the disks equally.
 pub const RADII: [&str; 3] = ["disk.radius_small", "disk.radius_medium", "disk.radius_large"];
 
-/// Parameters, inputs, calculated parameters and outputs, with those of the drive.
-pub fn rows(choice: Choice, drive: Vec<Variable>) -> Vec<Variable> {
+/// Parameters, inputs, calculated parameters and outputs, with those of the integration and the drive.
+pub fn rows(choice: Choice, integration: Vec<Variable>, drive: Vec<Variable>) -> Vec<Variable> {
     let mut rows = parameters();
+    rows.extend(integration);
     rows.extend(drive);
     rows.extend(calculated(choice.disks));
     rows.extend(outputs(choice.disks));
@@ -38,13 +39,7 @@ pub fn base_model() -> Variable {
 
 /// Rows of the event-driven packing: no integration, no springs, impacts instead of contacts.
 pub fn hard_rows(choice: Choice, drive: Vec<Variable>, further: Vec<Variable>) -> Vec<Variable> {
-    let absent = [
-        "time_step",
-        "chosen_time_step",
-        "largest_time_step",
-        "energy.elastic",
-        "contacts",
-    ];
+    let absent = ["chosen_time_step", "largest_time_step", "energy.elastic", "contacts"];
     let mut rows = parameters();
     rows.extend(further);
     rows.extend(drive);
@@ -121,14 +116,12 @@ fn parameters() -> Vec<Variable> {
             0.1,
             "Friction coefficient mu of every contact",
         ),
-        Variable::parameter(
-            "time_step",
-            Unit::Second,
-            0.0..=1.0,
-            0.0,
-            "Time step of the integration; 0: a hundredth of the shortest contact period",
-        ),
     ]
+}
+
+/// Parameter that sets the time step, or leaves it to the engine.
+pub fn time_step(description: &str) -> Variable {
+    Variable::parameter("time_step", Unit::Second, 0.0..=1.0, 0.0, description)
 }
 
 fn calculated(disks: u32) -> Vec<Variable> {

@@ -58,15 +58,16 @@ fn kicks_stop_the_centre() {
             let (s_2, c_2) = setting.right_angle().sin_cos();
             let newton = [[s_1, -s_2, c_1, c_2], [c_1, c_2, -s_1, s_2]];
             let torque = [0.0, 0.0, setting.radius, setting.radius];
-            let [n_1, n_2, ..] = solve([newton[0], newton[1], slides, torque], [0.0, 0.0, 0.0, -sense]);
-            // Centre and spin: overlaps follow the forces, the other contact sticks.
+            let [n_1, n_2, tau_1, tau_2] = solve([newton[0], newton[1], slides, torque], [0.0, 0.0, 0.0, -sense]);
+            // Centre and spin: overlaps and the skin of the contact that sticks follow the forces.
             let (r, k) = (setting.radius, stiffness);
-            let sticks = if setting.tilt > 0.0 {
-                [c_1, -s_1, r]
+            let (sticks, tau) = if setting.tilt > 0.0 {
+                ([c_1, -s_1, r], tau_1)
             } else {
-                [c_2, s_2, r]
+                ([c_2, s_2, r], tau_2)
             };
-            let [x, y, spin] = solve([[s_1, c_1, 0.0], [-s_2, c_2, 0.0], sticks], [-n_1 / k, -n_2 / k, 0.0]);
+            let wound = -tau / setting.tangential_stiffness;
+            let [x, y, spin] = solve([[s_1, c_1, 0.0], [-s_2, c_2, 0.0], sticks], [-n_1 / k, -n_2 / k, wound]);
             // Impulses N_1, N_2 with friction stop x and y; the spin that is left is the third unknown.
             let m = setting.mass;
             let rows = [

@@ -34,9 +34,9 @@ class Run:
     """Time from row to row [s]."""
     settings: tuple[tuple[str, float], ...]
     """Parameters by name."""
-    drive: str = "sine"
     disks: int | None = None
     """Number of disks; None: the scene's own."""
+    drive: str = field(default="sine", kw_only=True)
 
     def arguments(self) -> list[str]:
         """Arguments of `jostle`, without the output file."""

@@ -52,7 +52,7 @@ class Torque:
             ("time_step", TIME_STEP),
             ("measure.start", (PERIODS - 1) * self.period),
         )
-        return Run(SCENE, ENGINE, PERIODS * self.period, self.period / samples, settings, "harmonic-torque")
+        return Run(SCENE, ENGINE, PERIODS * self.period, self.period / samples, settings, drive="harmonic-torque")
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ def make(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Prod
         ("support.amplitude", AMPLITUDE),
         ("time_step", TIME_STEP),
     )
-    run = Run(SCENE, ENGINE, QUICK_SECONDS if quick else SECONDS, SAMPLE, settings, "random-supports")
+    run = Run(SCENE, ENGINE, QUICK_SECONDS if quick else SECONDS, SAMPLE, settings, drive="random-supports")
     slow = Torque(TILT, 0.113)
     tables = laboratory.run([run, slow.run(SLOW_SAMPLES)], "figure 4.3")
     table, turned = tables[run], tables[slow.run(SLOW_SAMPLES)]

@@ -51,7 +51,7 @@ class Noise:
             ("contact.friction", 0.0),
             ("time_step", self.time_step),
         )
-        return Run(SCENE, ENGINE, self.seconds, SAMPLE, settings, "random-supports")
+        return Run(SCENE, ENGINE, self.seconds, SAMPLE, settings, drive="random-supports")
 
 
 def correlation(lag: float, damping_ratio: float, printed: bool = False) -> float:

@@ -170,7 +170,7 @@ def _linear_statements(found: Sequence[Line]) -> list[Statement]:
                 f"least {beyond[a]:.1e} rad/s beyond"
                 for a, line in ((line.amplitude, line) for line in middle)
             ),
-            verdict(max(at_rest.values()) < 1e-6 and min(beyond.values()) > 1e-6),
+            verdict(max(at_rest.values()) < LOWEST < min(beyond.values())),
         ),
         Statement(
             "5.2.1, 5.2.3",

@@ -10,6 +10,9 @@ use std::time::{Duration, Instant};
 use jostle::drive::{FollowsInput, Sine};
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{PackingOnInput, PackingOnSine};
+use jostle::scene::three_disk::{
+    ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
+};
 use jostle::scene::wedge::{WedgeEventDriven, WedgeMap, WedgeMolecularDynamics};
 use jostle::scene::{Causality, Choice, Kind, Scene, Table, Value, Values};
 use rand::{Rng, RngExt, SeedableRng};
@@ -244,6 +247,12 @@ fn extremes<S: Scene>(seed: u64) -> Result<String, String> {
                 values.set_by_name(name, input.into()).expect("finite");
             }
         }
+        for name in ["torque", "torque.rate"] {
+            if let Some(kept) = real(&values, name) {
+                let input = pick(&mut generator, &[kept, kept, kept, 0.0, 0.15, -1.0, 1e3, -1e300]);
+                values.set_by_name(name, input.into()).expect("finite");
+            }
+        }
         let end = time + affordable(&values, disks, duration);
         if end <= time {
             continue;
@@ -282,7 +291,7 @@ fn extremes<S: Scene>(seed: u64) -> Result<String, String> {
                 if postcard::to_allocvec(&scene.state()).ok() != Some(bytes) {
                     return fail(format!("the refusal '{error}' changed the state"), time);
                 }
-                for name in ["base.displacement", "base.velocity"] {
+                for name in ["base.displacement", "base.velocity", "torque", "torque.rate"] {
                     let _ = values.set_by_name(name, 0.0.into());
                 }
             }
@@ -387,4 +396,8 @@ scenes! {
     wedge_event_driven_on_input: WedgeEventDriven<FollowsInput>, 20, 60;
     wedge_molecular_dynamics_on_sine: WedgeMolecularDynamics<Sine>, 12, 60;
     wedge_molecular_dynamics_on_input: WedgeMolecularDynamics<FollowsInput>, 12, 60;
+    three_disk_on_input: ThreeDiskOnInput, 12, 40;
+    three_disk_on_harmonic_torque: ThreeDiskOnHarmonicTorque, 12, 40;
+    three_disk_on_random_supports: ThreeDiskOnRandomSupports, 12, 40;
+    three_disk_on_sine: ThreeDiskOnSine, 12, 40;
 }

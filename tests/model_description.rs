@@ -12,6 +12,9 @@ use jostle::fmi::bundle::Component;
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
+use jostle::scene::three_disk::{
+    ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
+};
 use jostle::scene::wedge::{
     WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
     WedgeMolecularDynamicsOnSine,
@@ -95,4 +98,12 @@ fn ratchet_on_input() {
 #[test]
 fn ratchet_on_sine() {
     committed::<RatchetOnSine>();
+}
+
+#[test]
+fn three_disk() {
+    committed::<ThreeDiskOnInput>();
+    committed::<ThreeDiskOnHarmonicTorque>();
+    committed::<ThreeDiskOnRandomSupports>();
+    committed::<ThreeDiskOnSine>();
 }

@@ -249,7 +249,7 @@ fn what_confines_nothing_is_refused_by_name() {
     }
     assert!(told(&[("drive.amplitude", 0.0)]).starts_with("drive.amplitude = 0"));
     let flat = Simulation::<WedgeMap>::new(1, &[("wedge.aperture", 3.2.into())]);
-    assert!(flat.unwrap_err().to_string().contains("from 1.047 to 3.139"));
+    assert!(flat.unwrap_err().to_string().contains("from 1.047 to 3.14"));
 }
 
 /// Weakly bouncing disks: the map never piles impacts up; the moving wedge ends them at the floor and says how many, and

@@ -10,16 +10,23 @@ from jostle_lab.accelerometer import Accelerometer
 from jostle_lab.compare import compare_exchanges
 from jostle_lab.coupling import Exchange
 from jostle_lab.driver import CARRIED_MASSES, GBS_250F38CP01_04
-from jostle_lab.errors import LabError
+from jostle_lab.errors import LabError, require
 from jostle_lab.experiment import Setup
 from jostle_lab.figures import draw_all
 from jostle_lab.fmu_grains import FmuFactory, fingerprint
+from jostle_lab.leave_out import leave_out
 from jostle_lab.loudspeaker import Loudspeaker
-from jostle_lab.peers import compare
+from jostle_lab.peers import compare, compare_molecular_dynamics
+from jostle_lab.ratchet.command import ratchet_demo
+from jostle_lab.ratchet.page import ratchet_page
 from jostle_lab.report import write_report
+from jostle_lab.report_command import report
 from jostle_lab.results import Results
 from jostle_lab.run import Plan, run
+from jostle_lab.stability_page import stability
+from jostle_lab.sweep.command import sweep
 from jostle_lab.thesis.command import figure
+from jostle_lab.torque_demo import demonstrate
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -31,6 +38,12 @@ app = typer.Typer(
 )
 
 app.command()(figure)
+app.command()(report)
+app.command()(leave_out)
+app.command()(stability)
+app.command()(sweep)
+app.command()(ratchet_page)
+app.command()(ratchet_demo)
 
 DEMO_AMPLITUDES = "1,0.7,0.5,0.35,0.25,0.18,0.12,0.08,0.05"
 
@@ -133,6 +146,26 @@ def exchanges(
 
 
 @app.command()
+def torque_demo(
+    fmi2: Annotated[Path, typer.Option(help="three_disk FMU for FMI 2.0.")] = Path("build/three_disk_fmi2.fmu"),
+    fmi3: Annotated[Path, typer.Option(help="three_disk FMU for FMI 3.0.")] = Path("build/three_disk.fmu"),
+    results: ResultsOption = Path("results/torque"),
+    sample: Annotated[
+        float, typer.Option(help="Time between actions of the controller [s], whole milliseconds.")
+    ] = 5e-3,
+    parameters: SetOption = None,
+) -> None:
+    """Hold the angular velocity of a disk by torque, in spite of stick and slip: numbers, a table and a picture."""
+    milliseconds = 1e3 * require("--sample", sample, 1e-3, 1.0, "Give a time in seconds, such as 0.005.")
+    if abs(milliseconds - round(milliseconds)) > 1e-6:
+        raise LabError(f"--sample = {sample:g} s is not a whole number of milliseconds. Write, say, --sample 0.005")
+    _, _, page = paths = demonstrate(fmi2, fmi3, results, round(milliseconds) / 1e3, dict(_parameters(parameters)))
+    typer.echo(page.read_text())
+    for path in paths:
+        typer.echo(path)
+
+
+@app.command()
 def loudspeaker() -> None:
     """Print the loudspeaker: driver, masses, and what full drive asks of it."""
     speaker, driver = Loudspeaker(1.0 / 2400), GBS_250F38CP01_04
@@ -153,13 +186,21 @@ def loudspeaker() -> None:
 
 @app.command()
 def peers(
-    source: Annotated[Path, typer.Argument(help="C++ source of an event-driven code, such as refed.cpp.")],
+    source: Annotated[Path, typer.Argument(help="C++ source, such as refed.cpp, or refdem.cpp with --state.")],
     rounds: Annotated[int, typer.Option(min=1, max=50, help="Runs of each program, in turn.")] = 5,
+    state: Annotated[
+        list[Path] | None, typer.Option(help="State of molecular dynamics, such as s60.txt; may be repeated.")
+    ] = None,
 ) -> None:
-    """Measure the event-driven engine beside another program on smooth elastic disks: nanoseconds a collision."""
-    typer.echo("disks   ours [ns]  theirs [ns]  ratio")
-    for disks, ours, theirs, ratio in compare(source, rounds):
-        typer.echo(f"{disks:6d} {ours:10.1f} {theirs:12.1f} {ratio:6.2f}")
+    """Measure an engine beside another program: nanoseconds a collision, or with --state a disk and step."""
+    typer.echo("case            ours [ns]  theirs [ns]  ratio")
+    rows: list[tuple[str, float, float, float]]
+    if state:
+        rows = compare_molecular_dynamics(source, state, rounds)
+    else:
+        rows = [(f"{row[0]} disks", *row[1:]) for row in compare(source, rounds)]
+    for case, ours, theirs, ratio in rows:
+        typer.echo(f"{case:14} {ours:10.2f} {theirs:12.2f} {ratio:6.2f}")
 
 
 def _present(folder: Path) -> None:

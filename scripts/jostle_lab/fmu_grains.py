@@ -1,4 +1,4 @@
-"""A packing FMU as `Grains`, through fmpy, for FMI 2.0 and FMI 3.0 alike. Only this file knows fmpy.
+"""An FMU of disks as `Grains`, through fmpy, for FMI 2.0 and FMI 3.0 alike. Only this file knows fmpy.
 
 Calls in the loop go straight to the C functions that fmpy has loaded, with arrays made once: a few microseconds each
 where fmpy's own wrappers build arrays anew.
@@ -66,7 +66,7 @@ class _Variables:
 
 
 class FmuGrains:
-    """One instance of a packing FMU.
+    """One instance of an FMU of disks on a base that follows inputs: a packing, unless a subclass says otherwise.
 
     Args:
         path: the FMU.
@@ -76,9 +76,11 @@ class FmuGrains:
 
     """
 
+    scene = "packing"
+
     def __init__(self, path: Path, parameters: Mapping[str, float] | None = None) -> None:
         if not path.is_file():
-            raise LabError(f"No FMU at {path}. Make one: target/release/jostle fmu packing --fmi 3 --out {path}")
+            raise LabError(f"No FMU at {path}. Make one: target/release/jostle fmu {self.scene} --fmi 3 --out {path}")
         self.path = path
         self.costs = {"step": 0.0, "get and set": 0.0, "save and restore": 0.0}
         self._log: list[str] = []
@@ -98,20 +100,24 @@ class FmuGrains:
     def _instantiate(self) -> None:
         description = self._description
         if description.coSimulation is None:
-            raise LabError(f"{self.path} has no co-simulation interface. Bundle it with `jostle fmu packing`.")
+            raise LabError(f"{self.path} has no co-simulation interface. Bundle it with `jostle fmu {self.scene}`.")
         self.fmi_version = 2 if description.fmiVersion.startswith("2") else 3
         arguments = {
             "guid": description.guid,
             "unzipDirectory": self._directory,
             "modelIdentifier": description.coSimulation.modelIdentifier,
-            "instanceName": "packing",
+            "instanceName": self.scene,
         }
-        if self.fmi_version == 2:
-            fmu: Any = FMU2Slave(**arguments)
-            fmu.instantiate(callbacks=self._callbacks())
-        else:
-            fmu = FMU3Slave(**arguments)
-            fmu.instantiate(logMessage=self._record_log)
+        try:
+            if self.fmi_version == 2:
+                fmu: Any = FMU2Slave(**arguments)
+                fmu.instantiate(callbacks=self._callbacks())
+            else:
+                fmu = FMU3Slave(**arguments)
+                fmu.instantiate(logMessage=self._record_log)
+        except Exception as error:
+            said = " ".join(self._log) or f"{error}."
+            raise LabError(f"{self.path} cannot be instantiated. {said} Bundle it again after a build.") from error
         self._fmu = fmu
         library, prefix = fmu.dll, f"fmi{self.fmi_version}"
         self._do_step = getattr(library, f"{prefix}DoStep")
@@ -157,14 +163,17 @@ class FmuGrains:
         self._positions = self._group([f"disk.{axis}[{i}]" for i in indices for axis in "xy"])
         self.radii = self._read(self._group([f"disk.radius[{i}]" for i in indices])).copy()
         self.gravity = self.read("gravity")
-        self.box_width = self.read("box.width")
+        self.box_width, self.weight = self._width_and_weight()
+
+    def _width_and_weight(self) -> tuple[float, float]:
+        """Width of the box [m] and weight of the disks [N]."""
         area = float(np.pi * np.sum(self.radii**2))
-        self.weight = self.read("disk.surface_density") * area * self.gravity
+        return self.read("box.width"), self.read("disk.surface_density") * area * self.gravity
 
     def _variable(self, name: str) -> Any:
         if name not in self._variables:
             raise LabError(
-                f"{self.path} has no variable {name}. Is it a packing bundled with `jostle fmu packing --drive input`?"
+                f"{self.path} has no variable {name}. Is it bundled with `jostle fmu {self.scene} --drive input`?"
             )
         return self._variables[name]
 
@@ -194,6 +203,16 @@ class FmuGrains:
     def read(self, name: str) -> float:
         """Present value of one Float64 variable."""
         return float(self._read(self._group([name]))[0])
+
+    def write(self, name: str, value: float) -> None:
+        """Set one Float64 input."""
+        group = self._group([name])
+        group.values[0] = value
+        if self.fmi_version == 2:
+            status = self._set(self._fmu.component, group.references, 1, group.pointer)
+        else:
+            status = self._set(self._fmu.component, group.references, 1, group.pointer, 1)
+        self._check(status, f"setting {name}")
 
     def step(self, displacement: float, velocity: float, step: float) -> float:
         """See `Grains.step`."""

@@ -6,7 +6,8 @@
 
 x [m] counts from the equilibrium under the weight of the moving parts and of the grains, W [N]; so grains at rest
 (F = -W) leave the base at rest. The system is linear and is stepped exactly, whatever the step: the drive
-u = U sin(2 pi f t) as a harmonic oscillator joined to the state, F constant over the step. Guarantees: no error of its
+u = U sin(2 pi f t) as a harmonic oscillator joined to the state, F constant over the step. U and f may change from
+step to step. Guarantees: no error of its
 own but rounding. Not here: order of the exchange with the grains (`coupling`).
 """
 
@@ -59,6 +60,7 @@ class Loudspeaker:
         self.mass = driver.moving_mass + carried_mass
         self.voltage_amplitude = 0.0
         self.steps_taken = 0
+        self._tuned_at, self._tuned_turns = 0, 0.0
         self._state = np.zeros(3)
         self._input = np.zeros(6)
         self._transition = self._transition_matrix(step)
@@ -84,6 +86,19 @@ class Loudspeaker:
         joined[4, 5] = angular_frequency
         joined[5, 4] = -angular_frequency
         return np.ascontiguousarray(expm(joined * step)[:3])
+
+    def retune(self, drive_frequency: float) -> None:
+        """Drive at another frequency [Hz] from now on; the voltage goes on without a jump in phase."""
+        require("drive frequency [Hz]", drive_frequency, 1e-3, 1e5, "Choose one between 5 and 500.")
+        self._tuned_turns, self._tuned_at = self.drive_turns, self.steps_taken
+        self.drive_frequency = drive_frequency
+        self._transition = self._transition_matrix(self.step_size)
+
+    @property
+    def drive_turns(self) -> float:
+        """Phase of the voltage in turns, in [0, 1)."""
+        since = self.steps_taken - self._tuned_at
+        return math.fmod(self._tuned_turns + self.drive_frequency * since * self.step_size, 1.0)
 
     @property
     def time(self) -> float:
@@ -118,7 +133,7 @@ class Loudspeaker:
         The work is the exact integral -F (x(t + h) - x(t)) of a force that is constant over the step.
         """
         before = self._state[1]
-        phase = math.tau * math.fmod(self.drive_frequency * self.steps_taken * self.step_size, 1.0)
+        phase = math.tau * self.drive_turns
         self._input[:3] = self._state
         self._input[3] = reaction_force + self.grains_weight
         self._input[4] = self.voltage_amplitude * math.sin(phase)

@@ -1,6 +1,8 @@
-"""The event-driven engine beside another program on the same gas, in turn, as a ratio.
+"""Our engines beside other programs on the same case, in turn, as a ratio.
 
-The other program is a C++ source that takes `N packing_fraction warm_up collisions` and prints `ns/col=...`.
+Event-driven: a C++ source that takes `N packing_fraction warm_up collisions` and prints `ns/col=...`. Molecular
+dynamics: one that takes `state steps time_step` and prints `ns/particle-step=...`, beside our example
+`peer_molecular_dynamics`.
 """
 
 import re
@@ -15,6 +17,9 @@ SIZES = (60, 1000, 10_000, 100_000)
 PACKING_FRACTION = 0.6
 COLLISIONS = 2_000_000
 SHELL = 1.8
+DISK_STEPS = 6_000_000
+"""Disks times steps of one run of molecular dynamics."""
+TIME_STEP = "1e-6"
 
 
 def compare(source: Path, rounds: int) -> list[tuple[int, float, float, float]]:
@@ -38,6 +43,31 @@ def _row(ours: Path, theirs: Path, size: int, rounds: int) -> tuple[int, float, 
     own_median, their_median = (statistics.median(column) for column in zip(*pairs, strict=True))
     ratio = statistics.median(own / their for own, their in pairs)
     return size, own_median, their_median, ratio
+
+
+def compare_molecular_dynamics(source: Path, states: list[Path], rounds: int) -> list[tuple[str, float, float, float]]:
+    """Rows of (state, ours [ns a disk and step], theirs, ratio), medians over `rounds` runs in turn.
+
+    Ours is built for any x86-64, theirs with `-O3 -march=native -ffast-math` for this machine.
+    """
+    example = "peer_molecular_dynamics"
+    _run(["cargo", "build", "--release", "--example", example])
+    ours = Path("target/release/examples") / example
+    with tempfile.TemporaryDirectory() as folder:
+        theirs = Path(folder) / "peer"
+        _run(["g++", "-O3", "-march=native", "-ffast-math", "-std=c++17", str(source), "-o", str(theirs)])
+        return [_molecular_row(ours, theirs, state, rounds) for state in states]
+
+
+def _molecular_row(ours: Path, theirs: Path, state: Path, rounds: int) -> tuple[str, float, float, float]:
+    count = int(state.read_text().split()[0])
+    arguments = [str(state), str(max(1, DISK_STEPS // count)), TIME_STEP]
+    pairs = []
+    for _ in range(rounds):
+        own = _figure(_run([str(ours), *arguments]), r"ns/particle-step=([\d.]+)")
+        pairs.append((own, _figure(_run([str(theirs), *arguments]), r"ns/particle-step=([\d.]+)")))
+    own_median, their_median = (statistics.median(column) for column in zip(*pairs, strict=True))
+    return state.name, own_median, their_median, statistics.median(own / their for own, their in pairs)
 
 
 def _our_bench() -> Path:

@@ -4,12 +4,17 @@
 
 mod assignments;
 mod describe;
+mod fields;
 mod fmu;
+mod replay;
+mod report;
 mod run;
 mod scenes;
+mod stability;
 #[cfg(test)]
 mod test_scene;
 mod text;
+mod theory;
 
 use std::fmt;
 use std::io;
@@ -31,8 +36,13 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Describe(describe::Describe),
+    Fields(fields::Fields),
     Fmu(fmu::Fmu),
+    Replay(replay::Replay),
+    Report(report::Report),
     Run(run::Run),
+    Stability(stability::Stability),
+    Theory(theory::Theory),
 }
 
 /// Which scene, as what component: shared by all commands.
@@ -117,8 +127,13 @@ impl fmt::Display for Failure {
 pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Describe(describe) => describe.execute(),
+        Command::Replay(replay) => replay.execute(),
+        Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
+        Command::Report(report) => report.execute(),
         Command::Run(run) => run.execute(),
+        Command::Stability(stability) => stability.execute(),
+        Command::Theory(theory) => theory.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -48,7 +48,7 @@ pub struct Run {
     drive: Option<String>,
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
         _ => Err("give a time in seconds above 0, such as 10 or 1e-3".into()),
@@ -136,8 +136,8 @@ fn run<S: Scene>(options: &Run, choice: Choice) -> Result<u64, Failure> {
     Ok(last + 1)
 }
 
-/// Shown on a terminal only.
-fn progress_bar(rows: u64) -> ProgressBar {
+/// Bar of so many rows or other pieces, shown on a terminal only.
+pub(super) fn progress_bar(rows: u64) -> ProgressBar {
     let bar = ProgressBar::new(rows);
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent:>3} %  {elapsed} gone, {eta} to go") {
         bar.set_style(style);

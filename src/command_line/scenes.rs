@@ -3,6 +3,9 @@
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
+use jostle::scene::three_disk::{
+    ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
+};
 use jostle::scene::wedge::{
     WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
     WedgeMolecularDynamicsOnSine,
@@ -58,6 +61,10 @@ scenes![
     WedgeMolecularDynamicsOnSine,
     RatchetOnInput,
     RatchetOnSine,
+    ThreeDiskOnInput,
+    ThreeDiskOnHarmonicTorque,
+    ThreeDiskOnRandomSupports,
+    ThreeDiskOnSine,
 ];
 
 /// Position of the card with this scene, engine and drive.

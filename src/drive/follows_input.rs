@@ -88,6 +88,13 @@ impl BoundedDrive for FollowsInput {
     fn known_until(&self) -> f64 {
         self.end_time()
     }
+
+    fn counted_from(&self, origin: f64) -> Self {
+        Self {
+            start_time: self.start_time - origin,
+            ..*self
+        }
+    }
 }
 
 #[cfg(test)]

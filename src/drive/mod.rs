@@ -2,6 +2,7 @@
 //!
 //! A drive is a type, so that a scene compiles only the one it has.
 
+pub mod excitation;
 mod first_hit;
 mod follows_input;
 mod random_phase;
@@ -39,4 +40,8 @@ pub trait BoundedDrive: Drive {
 
     /// End \[s\] of what is known of the motion.
     fn known_until(&self) -> f64;
+
+    /// The same motion with time counted from `origin` \[s\], so that times keep their digits in long runs.
+    #[must_use]
+    fn counted_from(&self, origin: f64) -> Self;
 }

@@ -3,4 +3,5 @@
 pub mod event_driven;
 pub mod located_dynamics;
 pub mod molecular_dynamics;
+pub mod three_disk;
 pub mod wedge;

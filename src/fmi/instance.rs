@@ -4,48 +4,38 @@
 //! phase brings back the same bits. Not here: pointers, panics and log messages (`abi`), legal phases (`life_cycle`).
 
 mod saving;
+mod values;
 
 use std::sync::Arc;
 
 use super::life_cycle::{Call, Phase};
 use super::snapshot::Clock;
-use super::{TIME_REFERENCE, token};
+use super::{arrays, token};
 use crate::error::{Error, Result};
-use crate::scene::{Causality, Choice, Kind, Scene, Table, Value, Values, Variable};
+use crate::scene::{Causality, Choice, Kind, Reached, Scene, Table, Value, Values};
+pub use values::Access;
 
 /// Importers add up communication points in their own way; as much of a step may differ from ours.
 const POINT_TOLERANCE_OF_STEP: f64 = 1e-6;
 /// As many units in the last place of the time may differ besides.
 const POINT_TOLERANCE_OF_TIME: f64 = 64.0 * f64::EPSILON;
 
-/// The type by which an importer reads or writes a variable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Access {
-    /// `fmi2Real`, `fmi3Float64`.
-    Real,
-    /// `fmi3Int32`.
-    Integer,
-    /// `fmi3Int64`, which serves enumerations too.
-    Long,
-    /// `fmi2Integer`, which serves all whole numbers.
-    AnyInteger,
-}
-
-impl Access {
-    fn fits(self, kind: &Kind) -> bool {
-        match kind {
-            Kind::Real(_) => self == Self::Real,
-            Kind::Integer { .. } => matches!(self, Self::Integer | Self::AnyInteger),
-            Kind::Long { .. } | Kind::Enumeration { .. } => matches!(self, Self::Long | Self::AnyInteger),
-        }
-    }
+/// What the importer said that it can do when it made the instance (FMI 3.0; in FMI 2.0 nothing of this).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Importer {
+    /// `eventModeUsed`: it handles events in event mode, and initialisation ends there.
+    pub event_mode: bool,
+    /// `earlyReturnAllowed`: a step may end before its end.
+    pub early_return: bool,
 }
 
 /// One component.
 pub struct Instance<S: Scene> {
     token: String,
+    /// Elements of the variable at each position, if there are arrays.
+    spans: Option<Arc<[usize]>>,
     choice: Choice,
-    event_mode: bool,
+    importer: Importer,
     phase: Phase,
     clock: Clock,
     values: Values,
@@ -55,25 +45,35 @@ pub struct Instance<S: Scene> {
 }
 
 impl<S: Scene> Instance<S> {
-    /// A new component for `token`. `event_mode`: initialisation ends in event mode (FMI 3.0, if the importer asks).
+    /// A new component for `token`.
     ///
     /// # Errors
-    /// The token is not of this scene.
-    pub fn new(token: &str, event_mode: bool) -> Result<Self> {
-        let (choice, rows) = token::read::<S>(token)?;
-        Ok(Self::start(
-            token.into(),
-            choice,
-            event_mode,
-            Arc::new(Table::new(rows)),
-        ))
+    /// The token is not of this scene, or the importer wants event mode of a scene that has no events.
+    pub fn new(token: &str, importer: Importer) -> Result<Self> {
+        let contents = token::read::<S>(token)?;
+        if importer.event_mode && !S::EVENTS {
+            return Err(Error::call(
+                "event mode is not offered (hasEventMode = false)",
+                "Pass eventModeUsed = false.",
+            ));
+        }
+        let spans = contents.arrays.then(|| arrays::spans(&contents.rows).into());
+        let table = Arc::new(Table::new(contents.rows));
+        Ok(Self::start(token.into(), contents.choice, importer, table, spans))
     }
 
-    fn start(token: String, choice: Choice, event_mode: bool, table: Arc<Table>) -> Self {
+    fn start(
+        token: String,
+        choice: Choice,
+        importer: Importer,
+        table: Arc<Table>,
+        spans: Option<Arc<[usize]>>,
+    ) -> Self {
         Self {
             token,
+            spans,
             choice,
-            event_mode,
+            importer,
             phase: Phase::Instantiated,
             clock: Clock {
                 start: 0.0,
@@ -179,7 +179,11 @@ impl<S: Scene> Instance<S> {
     pub fn exit_initialization(&mut self) -> Result<()> {
         Call::ExitInitialization.check(self.phase)?;
         self.build()?;
-        self.phase = if self.event_mode { Phase::Event } else { Phase::Step };
+        self.phase = if self.importer.event_mode {
+            Phase::Event
+        } else {
+            Phase::Step
+        };
         Ok(())
     }
 
@@ -189,17 +193,21 @@ impl<S: Scene> Instance<S> {
     /// Wrong phase, or event mode was not asked for when the instance was made.
     pub fn enter_event_mode(&mut self) -> Result<()> {
         Call::EnterEvent.check(self.phase)?;
-        if !self.event_mode {
+        if !self.importer.event_mode {
+            let remedy = match S::EVENTS {
+                true => "Instantiate with eventModeUsed = true.",
+                false => "Do without: this scene has no events.",
+            };
             return Err(Error::call(
                 "event mode was not asked for when the instance was made",
-                "Instantiate with eventModeUsed = true, or do without: this scene has no events.",
+                remedy,
             ));
         }
         self.phase = Phase::Event;
         Ok(())
     }
 
-    /// Iterates on events, of which there are none.
+    /// Iterates on events: the scene has done with an event when the step ends, so that one round is enough.
     ///
     /// # Errors
     /// Wrong phase.
@@ -217,21 +225,32 @@ impl<S: Scene> Instance<S> {
         Ok(())
     }
 
-    /// Advances from `current` \[s\] by `step` \[s\].
+    /// Advances from `current` \[s\] by `step` \[s\], or to the first event in between if the importer handles events in
+    /// event mode and lets a step end early. Otherwise events are done with on the way.
     ///
     /// # Errors
     /// [`Error::Step`] if the scene cannot do it; anything else if the arguments are wrong. Time, values and state are
     /// then as before, and the importer may try again.
-    pub fn do_step(&mut self, current: f64, step: f64) -> Result<()> {
+    pub fn do_step(&mut self, current: f64, step: f64) -> Result<Reached> {
         Call::DoStep.check(self.phase)?;
         let end = self.end_of_step(current, step)?;
         let Some(scene) = &mut self.scene else {
             return Err(Error::call("the scene was never initialised", "Reset the instance."));
         };
-        scene.advance_to(end, &self.values)?;
+        let reached = if S::EVENTS && self.importer.event_mode && self.importer.early_return {
+            scene.advance_to_event(end, &self.values)?
+        } else {
+            scene.advance_to(end, &self.values)?;
+            Reached {
+                time: end,
+                event: false,
+            }
+        };
+        let legal = reached.time == end || reached.event && reached.time > self.clock.now && reached.time < end;
+        assert!(legal, "the scene went to {reached:?} where {end} s was asked");
         scene.write_outputs(self.values.writer());
-        self.clock.now = end;
-        Ok(())
+        self.clock.now = reached.time;
+        Ok(reached)
     }
 
     /// The importer's own sum, so that its next communication point is ours bit for bit.
@@ -287,101 +306,20 @@ impl<S: Scene> Instance<S> {
 
     /// Becomes as a new instance, whatever happened before.
     pub fn reset(&mut self) {
-        let table = Arc::clone(self.values.table());
-        *self = Self::start(std::mem::take(&mut self.token), self.choice, self.event_mode, table);
+        let (table, spans) = (Arc::clone(self.values.table()), self.spans.take());
+        *self = Self::start(
+            std::mem::take(&mut self.token),
+            self.choice,
+            self.importer,
+            table,
+            spans,
+        );
     }
 
     /// Marks the instance after a panic: nothing that the scene holds may be trusted.
     pub fn fail(&mut self) {
         self.phase = Phase::Failed;
         self.stale = true;
-    }
-
-    /// Value behind `reference`.
-    ///
-    /// # Errors
-    /// Unknown reference, other type, or an output before initialisation.
-    pub fn get(&mut self, reference: u32, access: Access) -> Result<Value> {
-        if reference == TIME_REFERENCE && access == Access::Real {
-            return Ok(Value::Real(self.clock.now));
-        }
-        let position = self.position(reference, access)?;
-        if computed(&self.values.table().rows()[position]) {
-            match self.phase {
-                Phase::Instantiated => {
-                    return Err(Error::call(
-                        format!("{} is not computed yet", self.values.table().rows()[position].name),
-                        "Enter initialization mode first.",
-                    ));
-                }
-                Phase::Initialization => self.build()?,
-                _ => {}
-            }
-        }
-        Ok(self.values.as_slice()[position])
-    }
-
-    /// Stores all values or, if one of them is refused, none.
-    ///
-    /// # Errors
-    /// Unknown reference, other type, not to be set in this phase or at all, not finite, out of range.
-    pub fn set(&mut self, references: &[u32], access: Access, value: impl Fn(usize) -> Value) -> Result<()> {
-        for (index, reference) in references.iter().enumerate() {
-            let position = self.position(*reference, access)?;
-            let row = &self.values.table().rows()[position];
-            self.check_settable(row)?;
-            row.check(value(index))?;
-        }
-        for (index, reference) in references.iter().enumerate() {
-            let position = self.position(*reference, access)?;
-            self.values.set(position, value(index))?;
-        }
-        self.stale |= self.phase == Phase::Initialization && !references.is_empty();
-        Ok(())
-    }
-
-    fn check_settable(&self, row: &Variable) -> Result<()> {
-        let before = matches!(self.phase, Phase::Instantiated | Phase::Initialization);
-        let running = matches!(self.phase, Phase::Event | Phase::Step);
-        let remedy = match row.causality {
-            Causality::Parameter if before => return Ok(()),
-            Causality::Input if before || running => return Ok(()),
-            Causality::Parameter => "Parameters are frozen when initialization ends: reset, then set it.",
-            Causality::Input => "Inputs may be set until the simulation is terminated.",
-            Causality::Output | Causality::CalculatedParameter => "The scene computes it: read it only.",
-        };
-        Err(Error::call(
-            format!("{} cannot be set in the phase {}", row.name, self.phase.name()),
-            remedy,
-        ))
-    }
-
-    fn position(&self, reference: u32, access: Access) -> Result<usize> {
-        let rows = self.values.table().rows();
-        let position = (reference as usize).wrapping_sub(1);
-        let Some(row) = rows.get(position) else {
-            let what = match reference {
-                TIME_REFERENCE => "value reference 0 is the time, a real that only steps change".into(),
-                _ => format!("value reference {reference} is unknown, there are 0 to {}", rows.len()),
-            };
-            return Err(Error::call(
-                what,
-                "Take the value references from modelDescription.xml.",
-            ));
-        };
-        if access.fits(&row.kind) {
-            return Ok(position);
-        }
-        let kind = match row.kind {
-            Kind::Real(_) => "real (Real, Float64)",
-            Kind::Integer { .. } => "32-bit integer (Integer, Int32)",
-            Kind::Long { .. } => "64-bit integer (Integer, Int64)",
-            Kind::Enumeration { .. } => "enumeration (Integer, Int64)",
-        };
-        Err(Error::call(
-            format!("{} (value reference {reference}) is of type {kind}", row.name),
-            "Call the function of this type.",
-        ))
     }
 
     fn build(&mut self) -> Result<()> {
@@ -393,8 +331,4 @@ impl<S: Scene> Instance<S> {
         }
         Ok(())
     }
-}
-
-fn computed(row: &Variable) -> bool {
-    matches!(row.causality, Causality::Output | Causality::CalculatedParameter)
 }

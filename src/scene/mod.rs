@@ -4,9 +4,11 @@
 //! it. Neither names FMI.
 
 pub mod base_drive;
+pub mod hard_disks;
 pub mod packing;
 pub mod ratchet;
 mod simulation;
+pub mod three_disk;
 pub mod values;
 pub mod variables;
 pub mod wedge;
@@ -51,6 +53,15 @@ pub struct Card {
     pub step_size: f64,
 }
 
+/// Where a step ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reached {
+    /// Time \[s\]; before the end of the step only if there was an event.
+    pub time: f64,
+    /// An event happened at that time.
+    pub event: bool,
+}
+
 /// A scene of disks that can be stepped, looked at, saved and restored.
 ///
 /// Contract: the parameters are frozen in [`Scene::new`]. [`Scene::advance_to`] either reaches `end_time` or leaves the
@@ -59,6 +70,9 @@ pub struct Card {
 pub trait Scene: Sized + Send + 'static {
     /// Everything that changes with time, the report of the last step included.
     type State: Clone + PartialEq + Serialize + DeserializeOwned + Send;
+
+    /// Has events that an importer may want to stop at: [`Scene::advance_to_event`] finds them.
+    const EVENTS: bool = false;
 
     /// Static facts.
     fn card() -> Card;
@@ -77,6 +91,20 @@ pub trait Scene: Sized + Send + 'static {
     /// # Errors
     /// The step cannot be done; the state is as before the call.
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()>;
+
+    /// Advances to the next event, if there is one after the present time and not after `end_time` \[s\], else to
+    /// `end_time`, where it is just as after [`Scene::advance_to`]. The event itself is done: going on from there in any
+    /// way gives the bits of one step to the same end. Only called where [`Scene::EVENTS`] says so.
+    ///
+    /// # Errors
+    /// As [`Scene::advance_to`].
+    fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        self.advance_to(end_time, values)?;
+        Ok(Reached {
+            time: end_time,
+            event: false,
+        })
+    }
 
     /// Writes every calculated parameter and output, in the order of the rows.
     fn write_outputs(&self, outputs: OutputWriter<'_>);

@@ -1,6 +1,7 @@
 //! Scene `ratchet`: disks in a periodic cell on a sawtooth that oscillates vertically, event-driven (F).
 
 mod equations;
+mod fields;
 mod rows;
 mod start;
 
@@ -9,12 +10,16 @@ use serde::{Deserialize, Serialize};
 use crate::collision::{Coulomb, VelocityFloor};
 use crate::drive::{BoundedDrive, FollowsInput, Sine};
 use crate::engine::event_driven::{
-    EventDriven, Gravity, Moving, NoHeadway, Partner, PeriodicAcross, Sawtooth, Settings, State, VibratingBase,
+    EventDriven, Gravity, Moving, NoHeadway, Observer, Partner, PeriodicAcross, Sawtooth, Settings, State, Unobserved,
+    VibratingBase,
 };
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, are_sane};
+use crate::measure::Transport;
 
 use super::base_drive::BaseDrive;
-use super::packing::hard::PackingBase;
+use super::hard_disks::{Energies, HardBase, Matter, Report};
+pub use fields::Resolution;
+
 use super::{Card, Choice, OutputWriter, Scene, Values, Variable};
 
 /// Ratchet whose base follows the inputs `base.displacement` and `base.velocity`.
@@ -28,8 +33,9 @@ pub type RatchetEngine<D> = EventDriven<VelocityFloor<Coulomb>, Sawtooth<D>, Gra
 
 const NAME: &str = "ratchet";
 
-/// Radius of a shell over that of its disk.
-const SHELL: f64 = 2.0;
+/// Greatest acceleration \[m/s2\] of the base, beyond which searches for first hits take ever smaller steps. The sine of the
+/// greatest amplitude and frequency has 4e13.
+const MOST_ACCELERATION: f64 = 1e14;
 
 /// Disks above this many rows over the base belong to the topmost cells.
 const REGION_ROWS: f64 = 12.0;
@@ -42,24 +48,10 @@ pub struct Ratchet<D: BoundedDrive> {
     gravity: f64,
     inertia_factor: f64,
     layers: f64,
-    /// Start of the average \[s\].
-    mark: f64,
     /// Ceiling less the height of the teeth and the widest disk \[m\]: farther up the base would crush it.
     headroom: f64,
     report: Report,
-}
-
-/// What the last communication step reported.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Report {
-    /// Time reached \[s\].
-    pub time: f64,
-    /// Vertical force of the disks on the base \[N\], mean over the last communication step.
-    pub reaction_force: f64,
-    /// Total energy at the start \[J\].
-    pub start_energy: f64,
-    /// Mean place of the disks \[m\], unwrapped, at the start of the average, once it is reached.
-    pub marked_place: Option<f64>,
+    averages: Averages,
 }
 
 /// State of a [`Ratchet`].
@@ -69,51 +61,120 @@ pub struct RatchetState<B> {
     pub engine: State<B>,
     /// The last communication step.
     pub report: Report,
+    /// Running averages.
+    pub averages: Averages,
+}
+
+/// Averages since `measure.start` or the last change of `measure.mark`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Averages {
+    /// The averages.
+    pub transport: Transport,
+    /// `measure.mark` in the last communication step.
+    pub mark: f64,
 }
 
 impl<D> Ratchet<D>
 where
     D: BaseDrive + BoundedDrive,
-    Moving<D>: PackingBase + VibratingBase,
+    Moving<D>: HardBase + VibratingBase,
 {
     /// The engine, to look at everything that is no output.
     pub fn engine(&self) -> &RatchetEngine<D> {
         &self.engine
     }
 
-    /// Kinetic and potential energy \[J\] now.
-    fn energies(&self) -> (f64, f64) {
-        let (mut kinetic, mut potential) = (0.0, 0.0);
-        for (disk, mass) in self.masses.iter().enumerate() {
-            let ([_, y], [vx, vy], _, angular_velocity) = self.engine.seen(disk, self.report.time);
-            let rim = self.engine.state().bodies[disk].radius * angular_velocity;
-            kinetic += 0.5 * mass * (vx * vx + vy * vy + self.inertia_factor * rim * rim);
-            potential += mass * self.gravity * y;
+    fn energies(&self) -> Energies {
+        let matter = Matter {
+            masses: &self.masses,
+            gravity: self.gravity,
+            inertia_factor: self.inertia_factor,
+        };
+        let seen = self.engine.state().bodies.iter().enumerate().map(|(disk, body)| {
+            let (place, velocity, _, angular_velocity) = self.engine.seen(disk, self.report.time);
+            (body.radius, place, velocity, angular_velocity)
+        });
+        Energies::of(matter, seen)
+    }
+
+    /// As [`Scene::advance_to`], to the bit, and shows the flights of the disks.
+    ///
+    /// # Errors
+    /// As [`Scene::advance_to`]; what was shown then does not count.
+    pub fn advance_observed(&mut self, end_time: f64, values: &Values, observer: &mut impl Observer) -> Result<()> {
+        let backup = self.saved();
+        let (from, impulse) = (self.report.time, self.engine.state().counts.base_impulse);
+        if let Err(error) = self.run_to(end_time, values, observer) {
+            self.go_back(&backup);
+            return Err(error);
         }
-        (kinetic, potential)
+        if !self.is_sane(end_time) {
+            self.go_back(&backup);
+            return Err(Error::Step {
+                scene: NAME,
+                time: end_time,
+                what: "a disk or the base is beyond 1e100 or no longer finite".into(),
+                remedy: "Check the base's amplitude and the inputs.".into(),
+            });
+        }
+        let given = self.engine.state().counts.base_impulse - impulse;
+        self.report.time = end_time;
+        self.report.reaction_force = -given / (end_time - from);
+        Ok(())
     }
 
-    /// Mean place \[m\] of the disks at `time` \[s\], periods undone.
-    fn mean_place(&self, time: f64) -> f64 {
-        let count = self.masses.len();
-        (0..count).map(|disk| self.engine.seen(disk, time).0[0]).sum::<f64>() / count as f64
-    }
-
-    /// Takes the inputs for a step to `end_time` \[s\], handles its events and sets the mark if it lies in it.
-    fn run_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
+    /// Takes the inputs for a step to `end_time` \[s\] and handles its events, reading places where batches end.
+    fn run_to(&mut self, end_time: f64, values: &Values, observer: &mut impl Observer) -> Result<()> {
         let from = self.report.time;
-        let mut base = self.engine.state().boundary.base.clone();
+        let mut base = self.engine.state().boundary.base().clone();
         if base.aim(from, end_time - from, values) {
-            if base.farthest >= self.headroom {
-                return Err(crushed(from, base.farthest, self.headroom));
+            let acceleration = base.drive.greatest_acceleration();
+            if !(acceleration <= MOST_ACCELERATION && base.farthest < self.headroom) {
+                return Err(impossible(from, acceleration, base.farthest, self.headroom));
             }
-            self.engine.change_boundary(from, |boundary| boundary.base = base);
+            let change = |boundary: &mut Sawtooth<D>| boundary.set_base(base);
+            self.engine.change_boundary_observed(from, change, observer);
         }
-        if self.report.marked_place.is_none() && self.mark <= end_time {
-            self.engine.advance_to(self.mark).map_err(refusal)?;
-            self.report.marked_place = Some(self.mean_place(self.mark));
+        let mark = values.real("measure.mark");
+        if mark != self.averages.mark {
+            let transport = Transport::new(from);
+            self.averages = Averages { transport, mark };
         }
-        self.engine.advance_to(end_time).map_err(refusal)
+        while self.averages.transport.due() <= end_time {
+            let due = self.averages.transport.due();
+            self.engine.advance_observed(due, observer).map_err(refusal)?;
+            let places = (0..self.masses.len()).map(|disk| self.engine.seen(disk, due).0[0]);
+            let work = self.engine.state().counts.energy_input;
+            self.averages.transport.record(places, work);
+        }
+        self.engine.advance_observed(end_time, observer).map_err(refusal)
+    }
+
+    /// Whether everything at `time` \[s\] is finite and far from overflow.
+    fn is_sane(&self, time: f64) -> bool {
+        let state = self.engine.state();
+        let (counts, base) = (&state.counts, state.boundary.base().motion(time));
+        let disks_hold = (0..self.masses.len()).all(|disk| {
+            let (place, velocity, angle, angular_velocity) = self.engine.seen(disk, time);
+            are_sane(place) && are_sane(velocity) && are_sane([angle, angular_velocity])
+        });
+        disks_hold
+            && are_sane([counts.energy_lost, counts.energy_input, counts.base_impulse])
+            && are_sane([base.displacement, base.velocity, base.acceleration])
+    }
+
+    fn saved(&self) -> RatchetState<Sawtooth<D>> {
+        RatchetState {
+            engine: self.engine.state().clone(),
+            report: self.report,
+            averages: self.averages.clone(),
+        }
+    }
+
+    fn go_back(&mut self, state: &RatchetState<Sawtooth<D>>) {
+        self.engine.restore(&state.engine);
+        self.report = state.report;
+        self.averages.clone_from(&state.averages);
     }
 }
 
@@ -136,19 +197,32 @@ fn refusal(stop: NoHeadway) -> Error {
     }
 }
 
-fn crushed(time: f64, farthest: f64, headroom: f64) -> Error {
+fn impossible(time: f64, acceleration: f64, farthest: f64, headroom: f64) -> Error {
+    let (what, remedy) = if farthest < headroom {
+        (
+            format!(
+                "the inputs accelerate the base by {acceleration:e} m/s2, and {MOST_ACCELERATION:e} m/s2 is the most"
+            ),
+            "Let base.displacement and base.velocity fit each other and the communication step.",
+        )
+    } else {
+        (
+            format!("the inputs move the base up by {farthest} m, and {headroom} m are left below the ceiling"),
+            "Keep base.displacement smaller or raise cell.height.",
+        )
+    };
     Error::Step {
         scene: NAME,
         time,
-        what: format!("the inputs move the base up by {farthest} m, and {headroom} m are left below the ceiling"),
-        remedy: "Keep base.displacement smaller or raise cell.height.".into(),
+        what,
+        remedy: remedy.into(),
     }
 }
 
 impl<D> Scene for Ratchet<D>
 where
     D: BaseDrive + BoundedDrive,
-    Moving<D>: PackingBase<Drive = D> + VibratingBase,
+    Moving<D>: HardBase<Drive = D> + VibratingBase,
 {
     type State = RatchetState<Sawtooth<D>>;
 
@@ -181,7 +255,7 @@ where
             values.real("collision.minimum_normal_velocity"),
         )?;
         let profile = start::profile(values)?;
-        let base = <Moving<D> as PackingBase>::from_values(start_time, values)?;
+        let base = <Moving<D> as HardBase>::from_values(start_time, values)?;
         let lift = base.motion(start_time).displacement;
         let disks = start::disks(choice, values, profile.top() + lift)?;
         let masses = start::masses(&disks, values);
@@ -206,17 +280,11 @@ where
                 + base.farthest()
                 + (REGION_ROWS + 2.0 * start::layers(disks.len(), values)) * radius_max,
         };
-        let boundary = Sawtooth {
-            profile,
-            base,
-            ceiling,
-            origin: start_time,
-            ceiling_hits: 0,
-        };
+        let boundary = Sawtooth::new(profile, base, ceiling, start_time);
         let gravity = values.real("gravity");
         let inertia_factor = values.real("disk.inertia_factor");
         let settings = Settings {
-            shell: SHELL,
+            shell: start::shell(disks.len(), values),
             start_time,
             inertia_factor,
         };
@@ -228,31 +296,19 @@ where
             masses,
             gravity,
             inertia_factor,
-            mark: values.real("measure.start").max(start_time),
             headroom,
-            report: Report {
-                time: start_time,
-                reaction_force: 0.0,
-                start_energy: 0.0,
-                marked_place: None,
+            report: Report::at_start(start_time),
+            averages: Averages {
+                transport: Transport::new(values.real("measure.start").max(start_time)),
+                mark: values.real("measure.mark"),
             },
         };
-        ratchet.report.start_energy = ratchet.energies().1;
+        ratchet.report.start_energy = ratchet.energies().total();
         Ok(ratchet)
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        let backup = self.state();
-        let (from, impulse) = (self.report.time, self.engine.state().counts.base_impulse);
-        if let Err(error) = self.run_to(end_time, values) {
-            self.engine.restore(&backup.engine);
-            self.report = backup.report;
-            return Err(error);
-        }
-        let given = self.engine.state().counts.base_impulse - impulse;
-        self.report.time = end_time;
-        self.report.reaction_force = -given / (end_time - from);
-        Ok(())
+        self.advance_observed(end_time, values, &mut Unobserved)
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
@@ -262,18 +318,16 @@ where
             .map(|disk| self.engine.seen(disk, time))
             .collect();
         let count = seen.len() as f64;
-        let (kinetic, potential) = self.energies();
-        let (counts, base) = (&state.counts, state.boundary.base.motion(time));
-        let ceiling_hits = state.boundary.ceiling_hits;
-        let since = time - self.mark;
-        let transport = match self.report.marked_place {
-            Some(place) if since > 0.0 => (self.mean_place(time) - place) / since,
-            _ => 0.0,
-        };
+        let (counts, base) = (&state.counts, state.boundary.base().motion(time));
+        let ceiling_hits = state.boundary.ceiling_hits();
+        let places = seen.iter().map(|disk| disk.0[0]);
+        let told = self.averages.transport.told(time, places, counts.energy_input);
         outputs.real("layers", self.layers);
         outputs.reals("disk.radius", state.bodies.iter().map(|body| body.radius));
         outputs.real("mean_velocity", seen.iter().map(|disk| disk.1[0]).sum::<f64>() / count);
-        outputs.real("transport_velocity", transport);
+        outputs.real("transport_velocity", told.velocity);
+        outputs.real("transport_velocity.standard_error", told.standard_error);
+        outputs.real("transport_velocity.spread", told.spread);
         outputs.real(
             "mean_angular_velocity",
             seen.iter().map(|disk| disk.3).sum::<f64>() / count,
@@ -281,12 +335,8 @@ where
         outputs.real("base.reaction_force", self.report.reaction_force);
         outputs.real("base.position", base.displacement);
         outputs.real("base.acceleration", base.acceleration);
-        outputs.real("energy.kinetic", kinetic);
-        outputs.real("energy.potential", potential);
-        outputs.real("energy.input", counts.energy_input);
-        outputs.real("energy.lost", counts.energy_lost);
-        let change = kinetic + potential - self.report.start_energy;
-        outputs.real("energy.residual", change - counts.energy_input + counts.energy_lost);
+        outputs.real("base.mean_power", told.power);
+        self.energies().write(&mut outputs, counts, self.report.start_energy);
         outputs.real("collisions", (counts.disk_impacts + counts.wall_impacts) as f64);
         outputs.real("collisions.disks", counts.disk_impacts as f64);
         outputs.real("collisions.base", (counts.wall_impacts - ceiling_hits) as f64);
@@ -298,23 +348,23 @@ where
     }
 
     fn state(&self) -> Self::State {
-        RatchetState {
-            engine: self.engine.state().clone(),
-            report: self.report,
-        }
+        self.saved()
     }
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
-        let own = &self.engine.state().boundary;
-        let same = (own.profile, own.ceiling) == (state.engine.boundary.profile, state.engine.boundary.ceiling);
-        if !same || !self.engine.fits(&state.engine) {
-            return Err(Error::state(
-                "it is not a state of this run",
-                "Restore states of the same scene, disk count and parameters only.",
-            ));
+        let averages = &state.averages;
+        let averages_hold = averages.transport.is_sound(self.masses.len(), state.report.time);
+        let report_holds = state.report.is_sane() && are_sane([averages.mark]);
+        let remedy = "Restore states of the same scene, disk count and parameters only.";
+        if !(averages_hold && report_holds && self.engine.fits(&state.engine)) {
+            return Err(Error::state("it is not a state of this run", remedy));
         }
-        self.engine.restore(&state.engine);
-        self.report = state.report;
+        let former = self.saved();
+        self.go_back(state);
+        if !self.is_sane(state.report.time) {
+            self.go_back(&former);
+            return Err(Error::state("it holds numbers that no ratchet has", remedy));
+        }
         Ok(())
     }
 }

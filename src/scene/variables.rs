@@ -86,6 +86,9 @@ pub enum Unit {
     NewtonPerMetre,
     NewtonSecond,
     Joule,
+    Watt,
+    NewtonMetre,
+    NewtonMetrePerSecond,
 }
 
 impl Unit {
@@ -107,6 +110,17 @@ impl Unit {
             Self::NewtonPerMetre => "N/m",
             Self::NewtonSecond => "N.s",
             Self::Joule => "J",
+            Self::Watt => "W",
+            Self::NewtonMetre => "N.m",
+            Self::NewtonMetrePerSecond => "N.m/s",
+        }
+    }
+
+    /// A number with its unit, as one says it: without one where there is none.
+    fn said_of(self, number: f64) -> String {
+        match self {
+            Self::One => number.to_string(),
+            _ => format!("{number} {}", self.name()),
         }
     }
 
@@ -127,7 +141,8 @@ impl Unit {
             Self::Newton => (1, 1, -2, 0),
             Self::NewtonPerMetre => (1, 0, -2, 0),
             Self::NewtonSecond => (1, 1, -1, 0),
-            Self::Joule => (1, 2, -2, 0),
+            Self::Joule | Self::NewtonMetre => (1, 2, -2, 0),
+            Self::Watt | Self::NewtonMetrePerSecond => (1, 2, -3, 0),
         }
     }
 }
@@ -210,7 +225,7 @@ impl Variable {
     }
 
     /// A whole number among the outputs, such as the contacts that are closed.
-    pub fn count_output(name: &str, description: &str) -> Self {
+    pub fn count_output(name: impl Into<String>, description: impl Into<String>) -> Self {
         Self {
             name: name.into(),
             description: description.into(),
@@ -218,6 +233,25 @@ impl Variable {
             kind: Kind::Integer {
                 range: 0..=i64::from(i32::MAX),
                 start: 0,
+            },
+        }
+    }
+
+    /// One of `options` among the outputs, each a name and a sentence; the first has the number 1.
+    pub fn enumeration_output(
+        name: impl Into<String>,
+        type_name: &'static str,
+        options: &'static [(&'static str, &'static str)],
+        description: impl Into<String>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            description: description.into(),
+            causality: Causality::Output,
+            kind: Kind::Enumeration {
+                type_name,
+                options,
+                start: 1,
             },
         }
     }
@@ -263,7 +297,7 @@ impl Variable {
                 }
                 Err(Error::parameter(
                     &self.name,
-                    format!("{real} {}", quantity.unit.name()),
+                    quantity.unit.said_of(real),
                     format!("a finite number from {} to {}", quantity.min, quantity.max),
                     "Give a value in this range.",
                 ))

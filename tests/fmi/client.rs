@@ -10,6 +10,7 @@ use fmu_probe::fmi3::*;
 use jostle::fmi::abi::common::{Opaque, Status};
 use jostle::fmi::abi::fmi2::CallbackFunctions;
 use jostle::fmi::bundle::Component;
+use jostle::fmi::instance::Importer;
 use jostle::fmi::{token, value_reference};
 use jostle::scene::Choice;
 
@@ -78,19 +79,19 @@ pub struct Client {
 
 impl Client {
     pub fn three() -> Self {
-        Self::three_with(&token(), false)
+        Self::three_with(&token(), Importer::default())
     }
 
     /// With logging on for errors.
-    pub fn three_with(token: &CStr, event_mode: bool) -> Self {
-        let client = Self::silent(token, event_mode);
+    pub fn three_with(token: &CStr, importer: Importer) -> Self {
+        let client = Self::silent(token, importer);
         let categories = [c"logStatusError".as_ptr(), c"logStatusDiscard".as_ptr()];
         unsafe { fmi3SetDebugLogging(client.pointer, 1, 2, categories.as_ptr()) };
         client
     }
 
     /// As instantiated without logging.
-    pub fn silent(token: &CStr, event_mode: bool) -> Self {
+    pub fn silent(token: &CStr, importer: Importer) -> Self {
         let log = Box::new(Log::default());
         let environment = std::ptr::from_ref(&*log).cast_mut().cast();
         let pointer = unsafe {
@@ -100,8 +101,8 @@ impl Client {
                 null(),
                 0,
                 0,
-                u8::from(event_mode),
-                0,
+                u8::from(importer.event_mode),
+                u8::from(importer.early_return),
                 null(),
                 0,
                 environment,
@@ -185,6 +186,16 @@ impl Client {
             }
             false => unsafe { fmi2DoStep(self.pointer, current, step, 0) },
         }
+    }
+
+    /// A step of FMI 3.0 that may end early: event handling needed, early return, last successful time.
+    pub fn step_to_event(&self, current: f64, step: f64) -> (bool, bool, f64) {
+        let (mut flags, mut time) = ([7_u8; 3], f64::NAN);
+        let [event, terminate, early] = &mut flags;
+        let status = unsafe { fmi3DoStep(self.pointer, current, step, 0, event, terminate, early, &mut time) };
+        assert_eq!(status, Status::Ok, "{:?}", self.log);
+        assert!(flags.iter().all(|flag| *flag <= 1) && flags[1] == 0, "{flags:?}");
+        (flags[0] == 1, flags[2] == 1, time)
     }
 
     /// Steps `first..last` of length `step` with a base that moves; what it shows after each.

@@ -5,8 +5,7 @@ use std::ffi::CString;
 use fmu_probe::fmi2::*;
 use fmu_probe::fmi3::*;
 use jostle::fmi::abi::common::Status::{Discard, Error, Ok};
-
-use jostle::fmi::Instance;
+use jostle::fmi::instance::Importer;
 
 use crate::client::{Client, reference, token};
 
@@ -165,24 +164,6 @@ fn parameters_refused_at_initialisation_may_be_mended() {
 }
 
 #[test]
-fn event_mode_is_refused_over_the_interface_and_ready_behind_it() {
-    let client = Client::three_with(&token(), true);
-    assert!(client.pointer.is_null() && client.last_message().contains("hasEventMode"));
-    let plain = Client::three().ready(&[]);
-    assert_eq!(unsafe { fmi3EnterEventMode(plain.pointer) }, Error);
-
-    let mut instance = Instance::<fmu_probe::Probe>::new(token().to_str().unwrap(), true).unwrap();
-    instance.enter_initialization().unwrap();
-    instance.exit_initialization().unwrap();
-    assert!(instance.do_step(0.0, 0.01).is_err(), "in event mode");
-    instance.update_discrete_states().unwrap();
-    instance.enter_step_mode().unwrap();
-    instance.do_step(0.0, 0.01).unwrap();
-    instance.enter_event_mode().unwrap();
-    instance.enter_step_mode().unwrap();
-}
-
-#[test]
 fn a_foreign_token_is_told() {
     for token in [
         "",
@@ -190,7 +171,7 @@ fn a_foreign_token_is_told() {
         "jostle:probe:oscillators:input:disks=3:0000000000000000",
         "jostle:probe:oscillators:input:disks=9999:1",
     ] {
-        let client = Client::three_with(&CString::new(token).unwrap(), false);
+        let client = Client::three_with(&CString::new(token).unwrap(), Importer::default());
         assert!(client.pointer.is_null());
         let message = client.last_message();
         assert!(message.contains(token) && message.contains("same FMU"), "{message}");
@@ -199,7 +180,7 @@ fn a_foreign_token_is_told() {
 
 #[test]
 fn log_categories_are_respected() {
-    let client = Client::silent(&token(), false);
+    let client = Client::silent(&token(), Importer::default());
     assert_eq!(client.step(0.0, 0.1), Error);
     assert!(
         client.log.borrow().is_empty(),
@@ -298,7 +279,7 @@ fn the_importers_tolerance_chooses_the_time_step() {
         let component = Component::of::<S>(Choice { disks: 3 }).unwrap();
         let position = |name: &str| component.rows.iter().position(|row| row.name == name);
         let token = token::write(&component.card, component.choice, &component.rows);
-        let mut instance = Instance::<S>::new(&token, false).unwrap();
+        let mut instance = jostle::fmi::Instance::<S>::new(&token, Importer::default()).unwrap();
         if let Some(own) = own {
             let reference = value_reference(position("tolerance").unwrap());
             instance.set(&[reference], Access::Real, |_| Value::Real(own)).unwrap();

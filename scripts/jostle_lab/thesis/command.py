@@ -19,7 +19,17 @@ Maker = Callable[[Laboratory, bool, int | None], Product]
 MODULES = {
     "3.10": "packing_paths",
     "3.11": "packing_comparison",
+    "4.3": "three_disk_region",
     "4.5": "restitution",
+    "5.1": "three_disk_regimes",
+    "5.2": "three_disk_amplitude:linear",
+    "5.3": "three_disk_amplitude:logarithmic",
+    "5.4": "three_disk_tilt:linear",
+    "5.5": "three_disk_tilt:logarithmic",
+    "5.6": "three_disk_path",
+    "5.7": "three_disk_amplitude:closed_form",
+    "5.8": "three_disk_random:against_amplitude",
+    "5.9": "three_disk_random:against_tilt",
     "6.3": "wedge_dynamics",
     "6.4": "wedge_collapse",
     "6.5": "wedge_engines",
@@ -28,13 +38,36 @@ MODULES = {
     "6.8": "wedge_restitution",
     "6.9": "wedge_skin",
     "engines": "engines",
+    "closed-form": "three_disk_closed_form",
+    "supports": "three_disk_supports",
 }
-"""Figure and the module of this package that makes it."""
+"""Figure of the thesis and the module of this package that makes it, with its function if that is not `make`."""
+STUDIES = {
+    "F3": "experiment:EXPERIMENT",
+    "F6": "shape:ASYMMETRY",
+    "F7": "shape:HEIGHT",
+    "F8": "layers:NEGATIVE",
+    "F9": "layers:POSITIVE",
+    "F10": "frequency:LAYERS",
+    "F11": "threshold:ONSET",
+    "F12": "frequency:TRANSITION",
+    "F13": "flow:FORWARDS",
+    "F14": "flow:BACKWARDS",
+}
+"""Figure of F and the study in `jostle_lab.ratchet` that makes it."""
+NUMBERS = (*MODULES, *STUDIES)
+GROUPS = {"all": tuple(MODULES), "F": tuple(STUDIES)}
+"""Names for many figures."""
 
 
 def maker(number: str) -> Maker:
     """The function that makes a figure."""
-    found: Maker = import_module(f"jostle_lab.thesis.{MODULES[number]}").make
+    if number in STUDIES:
+        module, name = STUDIES[number].split(":")
+        made: Maker = getattr(import_module(f"jostle_lab.ratchet.{module}"), name).make
+        return made
+    module, _, function = MODULES[number].partition(":")
+    found: Maker = getattr(import_module(f"jostle_lab.thesis.{module}"), function or "make")
     return found
 
 
@@ -56,7 +89,12 @@ def make_figure(number: str, laboratory: Laboratory, results: Path, quick: bool,
 
 
 def figure(
-    numbers: Annotated[list[str], typer.Argument(help=f"Figures of the thesis, or all: {', '.join(MODULES)}.")],
+    numbers: Annotated[
+        list[str],
+        typer.Argument(
+            help=f"Figures of the thesis, or all: {', '.join(MODULES)}; of the ratchet, or F: {', '.join(STUDIES)}."
+        ),
+    ],
     quick: Annotated[
         bool, typer.Option("--quick", help="Fewer points and shorter runs: at most about a minute each.")
     ] = False,
@@ -66,17 +104,20 @@ def figure(
     ] = None,
     processes: Annotated[int, typer.Option(min=1, max=256, help="Runs at the same time.")] = 2,
     program: Annotated[Path, typer.Option(help="The native command line.")] = Path("target/release/jostle"),
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Dask scheduler for the ratchet's sweeps; None: this machine.")
+    ] = None,
     progress: Annotated[bool, typer.Option(help="Show progress bars.")] = True,
 ) -> None:
-    """Compute figures of the thesis anew: data.csv, figure.png and statements.md, in results/figure-N.
+    """Compute figures of the papers anew: data.csv, figure.png and statements.md, in results/figure-N.
 
-    Safe to interrupt and to repeat: finished runs are kept in results/runs.
+    Safe to interrupt and to repeat: finished runs are kept in results/runs and results/ratchet-sweep.
     """
-    chosen = list(MODULES) if "all" in numbers else numbers
-    unknown = [number for number in chosen if number not in MODULES]
+    chosen = [number for name in numbers for number in GROUPS.get(name, (name,))]
+    unknown = [number for number in chosen if number not in NUMBERS]
     if unknown:
-        raise LabError(f"No figure {', '.join(unknown)}. There are {', '.join(MODULES)}, and all.")
-    laboratory = Laboratory(program, results / "runs", processes, progress)
+        raise LabError(f"No figure {', '.join(unknown)}. There are {', '.join(NUMBERS)}; all of the thesis; and F.")
+    laboratory = Laboratory(program, results / "runs", processes, progress, scheduler)
     failures = []
     for number in chosen:
         try:

@@ -1,4 +1,4 @@
-"""What a figure hands over, and the page of its statements."""
+"""What a figure of a paper hands over, and the page of its statements."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ class Statement:
     """A printed statement beside what was found."""
 
     place: str
-    """Where the thesis says it."""
+    """Where the paper says it."""
     printed: str
     found: str
     verdict: Verdict
@@ -46,6 +46,8 @@ class Product:
     statements: Sequence[Statement]
     notes: Sequence[str]
     """Parameters, seeds, durations; one line each."""
+    tables: Sequence[str] = ()
+    """In Markdown: what the answers depend on."""
 
 
 def write(product: Product, folder: Path, command: str, footer: str) -> list[Path]:
@@ -59,12 +61,15 @@ def write(product: Product, folder: Path, command: str, footer: str) -> list[Pat
 
 
 def _page(product: Product, command: str, footer: str) -> str:
-    rows = [f"| {s.place} | {_cell(s.printed)} | {_cell(s.found)} | {s.verdict} |" for s in product.statements]
+    rows = [f"| {s.place} | {cell(s.printed)} | {cell(s.found)} | {s.verdict} |" for s in product.statements]
     notes = [f"- {note}" for note in product.notes]
     header = ["| where | printed | ours | |", "|:--|:--|:--|:--|"]
-    return "\n".join([f"# {product.title}", "", f"`{command}`", "", *header, *rows, "", *notes, f"- {footer}", ""])
+    tables = [line for table in product.tables for line in ("", *table.splitlines())]
+    return "\n".join(
+        [f"# {product.title}", "", f"`{command}`", "", *header, *rows, "", *notes, f"- {footer}", *tables, ""]
+    )
 
 
-def _cell(text: str) -> str:
+def cell(text: str) -> str:
     """Text in a cell of a table."""
     return text.replace("|", "\\|")

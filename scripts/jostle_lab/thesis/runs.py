@@ -34,10 +34,14 @@ class Run:
     """Time from row to row [s]."""
     settings: tuple[tuple[str, float], ...]
     """Parameters by name."""
+    disks: int | None = None
+    """Number of disks; None: the scene's own."""
+    drive: str = field(default="sine", kw_only=True)
 
     def arguments(self) -> list[str]:
         """Arguments of `jostle`, without the output file."""
-        words = ["run", self.scene, "--engine", self.engine, "--drive", "sine"]
+        words = ["run", self.scene, "--engine", self.engine, "--drive", self.drive]
+        words += ["--disks", str(self.disks)] if self.disks is not None else []
         words += ["--seconds", repr(self.seconds), "--sample", repr(self.sample)]
         for name, value in self.settings:
             words += ["--set", f"{name}={value!r}"]
@@ -53,15 +57,15 @@ class Laboratory:
     """Folder of the finished runs."""
     processes: int = 2
     show_progress: bool = True
+    scheduler: str | None = None
+    """Address of a Dask scheduler for the runs that are swept; None: processes of this machine."""
     spent: float = field(default=0.0, init=False)
     """Processor time of all runs asked for so far, also of those found on disk [s]."""
 
     @cached_property
     def version(self) -> str:
         """Fingerprint of the program."""
-        if not self.program.is_file():
-            raise LabError(f"{self.program} is not there. Build it: cargo build --release --bin jostle")
-        return hashlib.sha256(self.program.read_bytes()).hexdigest()[:12]
+        return fingerprint(self.program)
 
     def run(self, runs: Sequence[Run], title: str) -> dict[Run, Table]:
         """Every run's table; those that are on disk already are read only."""
@@ -99,6 +103,17 @@ class Laboratory:
         self.spent += time.perf_counter() - begun
         return parse_csv(done.stdout)
 
+    def theory(self, scene: str, quantity: str, **settings: Sequence[float] | float) -> Table:
+        """What `jostle theory` prints; `__` in a name stands for a dot. All combinations, the first name slowest."""
+        words = [str(self.program), "theory", scene, quantity]
+        for name, values in settings.items():
+            numbers = [values] if isinstance(values, int | float) else values
+            words += ["--set", name.replace("__", ".") + "=" + ",".join(repr(float(number)) for number in numbers)]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise LabError(f"{' '.join(words)} failed:\n{done.stderr.strip()}")
+        return parse_csv(done.stdout)
+
     def _path(self, run: Run) -> Path:
         key = hashlib.sha256("\n".join([self.version, *run.arguments()]).encode()).hexdigest()[:20]
         return self.kept / f"{key}.csv"
@@ -123,6 +138,13 @@ class Laboratory:
     def _read(self, run: Run) -> Table:
         self.spent += float(json.loads(self._record(run).read_text())["seconds"])
         return parse_csv(self._path(run).read_text())
+
+
+def fingerprint(program: Path) -> str:
+    """First digits of the checksum of a program: the same bytes, the same numbers."""
+    if not program.is_file():
+        raise LabError(f"{program} is not there. Build it: cargo build --release --bin jostle")
+    return hashlib.sha256(program.read_bytes()).hexdigest()[:12]
 
 
 def parse_csv(text: str) -> Table:

@@ -5,6 +5,7 @@ use crate::collision::{CollisionLaw, Impact, effective_mass, tangential_mass};
 use super::{Boundary, EventDriven, Field, Space, Spin, State};
 
 impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
+    /// Impact of two disks that have flown to where they touch.
     pub(super) fn meet_disk(&mut self, first: u32, second: u32, now: f64) {
         let inverse_factor = self.inverse_inertia_factor;
         let State {
@@ -15,7 +16,6 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             ..
         } = &mut self.state;
         let (i, j) = (first as usize, second as usize);
-        bodies[j].fly(now, self.field);
         let (a, b) = (bodies[i], bodies[j]);
         let mut separation = [a.x - b.x, a.y - b.y];
         let (here, there) = (&shells.listings[i], &shells.listings[j]);

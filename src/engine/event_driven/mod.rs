@@ -12,6 +12,7 @@ mod body;
 mod boundary;
 mod field;
 mod impacts;
+mod observer;
 mod prediction;
 mod queue;
 mod sawtooth;
@@ -26,6 +27,7 @@ use crate::geometry::Disk;
 pub use body::{Body, Spin};
 pub use boundary::{Boundary, Meeting, Unbounded};
 pub use field::{Field, Gravity, Weightless};
+pub use observer::{Observer, Unobserved};
 pub use sawtooth::Sawtooth;
 pub use space::{Open, Periodic, PeriodicAcross, Space};
 pub use state::{Counts, NoHeadway, Partner, State};
@@ -140,6 +142,15 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     /// # Errors
     /// The run makes no headway.
     pub fn advance_to(&mut self, end_time: f64) -> Result<(), NoHeadway> {
+        self.advance_observed(end_time, &mut Unobserved)
+    }
+
+    /// As [`Self::advance_to`], to the bit, and shows the flights that end on the way. What still flies at the end is
+    /// shown by [`Self::show_flights`].
+    ///
+    /// # Errors
+    /// The run makes no headway.
+    pub fn advance_observed(&mut self, end_time: f64, observer: &mut impl Observer) -> Result<(), NoHeadway> {
         loop {
             let end = end_time - self.state.epoch;
             let bodies = &self.state.bodies;
@@ -150,16 +161,30 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
                 return Ok(());
             }
             self.calendar.pop();
-            self.resolve(disk, time)?;
+            self.resolve(disk, time, observer)?;
             if time > EPOCH {
                 self.begin_epoch();
+                observer.shift(EPOCH);
             }
+        }
+    }
+
+    /// Shows the flights that go on at `time` \[s\], as far as that: what an observer needs at its end and nowhere else.
+    pub fn show_flights(&self, time: f64, observer: &mut impl Observer) {
+        let now = time - self.state.epoch;
+        for (disk, body) in self.state.bodies.iter().enumerate() {
+            observer.flight(disk as u32, body, now);
         }
     }
 
     /// The state: all that the future depends on.
     pub fn state(&self) -> &State<B> {
         &self.state
+    }
+
+    /// Where the disks live.
+    pub fn space(&self) -> &S {
+        &self.space
     }
 
     /// Goes back (or on) to a state of this run.
@@ -170,13 +195,18 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
 
     /// Changes the boundary at `time` \[s\] and predicts anew whoever is near a wall before or after.
     pub fn change_boundary(&mut self, time: f64, change: impl FnOnce(&mut B)) {
+        self.change_boundary_observed(time, change, &mut Unobserved);
+    }
+
+    /// As [`Self::change_boundary`], and shows the flights that it cuts in two.
+    pub fn change_boundary_observed(&mut self, time: f64, change: impl FnOnce(&mut B), observer: &mut impl Observer) {
         change(&mut self.state.boundary);
         let now = time - self.state.epoch;
         for disk in 0..self.state.bodies.len() as u32 {
             let before = self.state.shells.listings[disk as usize].walls;
             self.find_walls(disk);
             if before | self.state.shells.listings[disk as usize].walls != 0 {
-                self.state.bodies[disk as usize].fly(now, self.field);
+                self.fly(disk, now, observer);
                 self.predict(disk, now);
             }
         }
@@ -196,14 +226,21 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         (place, [body.vx, body.vy], angle, spin.angular_velocity)
     }
 
-    fn resolve(&mut self, disk: u32, now: f64) -> Result<(), NoHeadway> {
+    #[inline(always)]
+    fn fly(&mut self, disk: u32, now: f64, observer: &mut impl Observer) {
+        let body = &mut self.state.bodies[disk as usize];
+        observer.flight(disk, body, now);
+        body.fly(now, self.field);
+    }
+
+    fn resolve(&mut self, disk: u32, now: f64, observer: &mut impl Observer) -> Result<(), NoHeadway> {
         let partner = self.state.bodies[disk as usize].partner;
+        self.fly(disk, now, observer);
         if partner == LEAVES_SHELL {
-            self.renew_shell(disk, now);
+            self.renew_shell(disk);
             self.predict(disk, now);
             return self.watch(now, (disk, Partner::Shell));
         }
-        self.state.bodies[disk as usize].fly(now, self.field);
         if B::EXISTS && partner >= WALLS {
             self.meet_wall(disk, partner - WALLS, now);
             self.predict(disk, now);
@@ -214,6 +251,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             self.predict(disk, now);
             return self.watch(now, (disk, Partner::Disk(partner)));
         }
+        self.fly(partner, now, observer);
         self.meet_disk(disk, partner, now);
         self.predict(disk, now);
         self.predict(partner, now);
@@ -221,7 +259,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     }
 
     /// The disk may be at the end of its shell: if it is near it, it gets a new shell where it is.
-    fn renew_shell(&mut self, disk: u32, now: f64) {
+    fn renew_shell(&mut self, disk: u32) {
         let State {
             bodies,
             spins,
@@ -230,7 +268,6 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             ..
         } = &mut self.state;
         let body = &mut bodies[disk as usize];
-        body.fly(now, self.field);
         let place = self.space.wrapped([body.x, body.y]);
         if place != [body.x, body.y] {
             let [width, height] = self.space.region().1;

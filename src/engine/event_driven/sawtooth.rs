@@ -26,19 +26,60 @@ const MOST_STEPS: usize = 100_000;
 /// Teeth on a base that moves, and a ceiling.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sawtooth<D> {
-    /// Shape of the teeth.
-    pub profile: SawtoothProfile,
-    /// Motion of the base.
-    pub base: Moving<D>,
-    /// Height of the ceiling \[m\].
-    pub ceiling: f64,
+    profile: SawtoothProfile,
+    base: Moving<D>,
+    /// The drive of the base in local time.
+    local: D,
+    ceiling: f64,
     /// Time \[s\] at which local time is zero.
-    pub origin: f64,
-    /// Hits on the ceiling so far.
-    pub ceiling_hits: u64,
+    origin: f64,
+    ceiling_hits: u64,
 }
 
 impl<D: BoundedDrive> Sawtooth<D> {
+    /// Teeth on a base under a ceiling at the height `ceiling` \[m\]; local time begins at `origin` \[s\].
+    pub fn new(profile: SawtoothProfile, base: Moving<D>, ceiling: f64, origin: f64) -> Self {
+        Self {
+            profile,
+            local: base.drive.counted_from(origin),
+            base,
+            ceiling,
+            origin,
+            ceiling_hits: 0,
+        }
+    }
+
+    /// Shape of the teeth.
+    pub fn profile(&self) -> &SawtoothProfile {
+        &self.profile
+    }
+
+    /// Motion of the base, in time since zero.
+    pub fn base(&self) -> &Moving<D> {
+        &self.base
+    }
+
+    /// Motion of the base at a local time \[s\], as impacts see it.
+    pub fn local_motion(&self, local_time: f64) -> Motion {
+        self.local.motion(local_time)
+    }
+
+    /// Height of the ceiling \[m\].
+    pub fn ceiling(&self) -> f64 {
+        self.ceiling
+    }
+
+    /// Hits on the ceiling so far.
+    pub fn ceiling_hits(&self) -> u64 {
+        self.ceiling_hits
+    }
+
+    /// From now on the base moves like this.
+    pub fn set_base(&mut self, base: Moving<D>) {
+        self.local = base.drive.counted_from(self.origin);
+        self.base = base;
+    }
+
     /// Gap \[m\] of a disk `delay` after its place, its rate \[m/s\] and the normal, towards one tooth.
     #[inline]
     fn gap(&self, tooth: i64, body: &Body, base: Motion, delay: f64, gravity: f64) -> (f64, f64, [f64; 2]) {
@@ -58,12 +99,11 @@ impl<D: BoundedDrive> Sawtooth<D> {
         &self,
         tooth: i64,
         body: &Body,
-        now: (f64, Motion),
+        (now, base): (f64, Motion),
         gravity: f64,
         horizon: f64,
     ) -> Option<f64> {
-        let (time, base) = now;
-        let bound = gravity + self.base.drive.greatest_acceleration();
+        let bound = gravity + self.local.greatest_acceleration();
         let (mut gap, mut rate, _) = self.gap(tooth, body, base, 0.0, gravity);
         if gap <= 0.0 && rate < 0.0 {
             return Some(0.0);
@@ -87,7 +127,7 @@ impl<D: BoundedDrive> Sawtooth<D> {
                 return Some(next);
             }
             delay = next;
-            let base = self.base.drive.motion(time + delay);
+            let base = self.local.motion(now + delay);
             (gap, rate, _) = self.gap(tooth, body, base, delay, gravity);
         }
         Some(delay)
@@ -119,13 +159,12 @@ where
         if walls & (1 << BASE) == 0 {
             return (earliest, first);
         }
-        let time = self.origin + now;
-        let mut within = horizon.min(earliest).min(self.base.drive.known_until() - time);
+        let mut within = horizon.min(earliest).min(self.local.known_until() - now);
         let reach = body.radius + body.vx.abs() * within.max(0.0);
         let (left, right) = self.profile.teeth_between(body.x - reach, body.x + reach);
-        let base = self.base.drive.motion(time);
+        let base = self.local.motion(now);
         for tooth in left..=right {
-            if let Some(delay) = self.first_hit_of_tooth(tooth, body, (time, base), gravity, within) {
+            if let Some(delay) = self.first_hit_of_tooth(tooth, body, (now, base), gravity, within) {
                 (earliest, first, within) = (delay, BASE, delay);
             }
         }
@@ -141,7 +180,7 @@ where
                 velocity: [0.0, 0.0],
             };
         }
-        let base = self.base.drive.motion(self.origin + now);
+        let base = self.local.motion(now);
         let reach = body.radius * (1.0 + TOGETHER);
         let (left, right) = self.profile.teeth_between(body.x - reach, body.x + reach);
         let (mut least, mut fastest) = (f64::INFINITY, f64::INFINITY);
@@ -167,11 +206,13 @@ where
 
     fn shift(&mut self, seconds: f64) {
         self.origin += seconds;
+        self.local = self.base.drive.counted_from(self.origin);
     }
 
     fn fits(&self, other: &Self, epoch: f64) -> bool {
         let same_shape = other.profile == self.profile && other.ceiling == self.ceiling;
-        same_shape && other.origin == epoch && other.base.farthest().abs() < 1e100
+        let same_time = other.origin == epoch && other.local == other.base.drive.counted_from(epoch);
+        same_shape && same_time && other.base.farthest().abs() < 1e100
     }
 
     /// The base and the ceiling.

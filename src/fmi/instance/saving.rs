@@ -72,7 +72,8 @@ impl<S: Scene> Instance<S> {
         let times = start.is_finite() && now.is_finite() && now >= start && stop.is_none_or(f64::is_finite);
         let complete = match snapshot.phase {
             Phase::Instantiated | Phase::Initialization => true,
-            Phase::Event | Phase::Step | Phase::Terminated => snapshot.scene.is_some(),
+            Phase::Event => self.importer.event_mode && snapshot.scene.is_some(),
+            Phase::Step | Phase::Terminated => snapshot.scene.is_some(),
             Phase::Failed => false,
         };
         if times && complete {

@@ -8,6 +8,7 @@ use crate::drive::FollowsInput;
 use crate::engine::event_driven::{Moving, NoHeadway, Partner};
 use crate::error::{Error, Result, are_sane};
 use crate::scene::base_drive::BaseDrive;
+use crate::scene::hard_disks::{Energies, Matter, Report};
 use crate::scene::{Card, Choice, Scene};
 use crate::scene::{OutputWriter, Values, Variable};
 
@@ -28,17 +29,6 @@ pub struct HardPacking<R> {
     radii: Vec<f64>,
     gravity: f64,
     report: Report,
-}
-
-/// What the last communication step reported.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Report {
-    /// Time reached \[s\].
-    pub time: f64,
-    /// Vertical force of the disks on the base \[N\], mean over the last communication step.
-    pub reaction_force: f64,
-    /// Total energy at the start \[J\].
-    pub start_energy: f64,
 }
 
 /// State of a [`HardPacking`].
@@ -68,15 +58,17 @@ impl<R: HardRun> HardPacking<R> {
             && are_sane([base.displacement, base.velocity, base.acceleration])
     }
 
-    /// Kinetic and potential energy \[J\] now.
-    fn energies(&self) -> (f64, f64) {
-        let (mut kinetic, mut potential) = (0.0, 0.0);
-        for (disk, (mass, radius)) in self.masses.iter().zip(&self.radii).enumerate() {
-            let ([_, y], [vx, vy], _, angular_velocity) = self.run.seen(disk, self.report.time);
-            kinetic += 0.5 * mass * (vx * vx + vy * vy + 0.5 * (radius * angular_velocity).powi(2));
-            potential += mass * self.gravity * y;
-        }
-        (kinetic, potential)
+    fn energies(&self) -> Energies {
+        let matter = Matter {
+            masses: &self.masses,
+            gravity: self.gravity,
+            inertia_factor: 0.5,
+        };
+        let seen = self.radii.iter().enumerate().map(|(disk, radius)| {
+            let (place, velocity, _, angular_velocity) = self.run.seen(disk, self.report.time);
+            (*radius, place, velocity, angular_velocity)
+        });
+        Energies::of(matter, seen)
     }
 }
 
@@ -135,19 +127,14 @@ impl<R: HardRun> Scene for HardPacking<R> {
         let masses = masses_of(&disks, values);
         let run = R::new(&disks, &masses, start_time, values)?;
         let radii = disks.iter().map(|disk| disk.radius).collect();
-        let report = Report {
-            time: start_time,
-            reaction_force: 0.0,
-            start_energy: 0.0,
-        };
         let mut packing = Self {
             run,
             masses,
             radii,
             gravity: values.real("gravity"),
-            report,
+            report: Report::at_start(start_time),
         };
-        packing.report.start_energy = packing.energies().1;
+        packing.report.start_energy = packing.energies().total();
         Ok(packing)
     }
 
@@ -181,7 +168,6 @@ impl<R: HardRun> Scene for HardPacking<R> {
         let time = self.report.time;
         let seen: Vec<_> = (0..self.radii.len()).map(|disk| self.run.seen(disk, time)).collect();
         let count = seen.len() as f64;
-        let (kinetic, potential) = self.energies();
         let (counts, base) = (self.run.counts(), self.run.base(time));
         outputs.reals("disk.radius", self.radii.iter().copied());
         outputs.real("mean_velocity", seen.iter().map(|disk| disk.1[0]).sum::<f64>() / count);
@@ -192,12 +178,7 @@ impl<R: HardRun> Scene for HardPacking<R> {
         outputs.real("base.reaction_force", self.report.reaction_force);
         outputs.real("base.position", base.displacement);
         outputs.real("base.acceleration", base.acceleration);
-        outputs.real("energy.kinetic", kinetic);
-        outputs.real("energy.potential", potential);
-        outputs.real("energy.input", counts.energy_input);
-        outputs.real("energy.lost", counts.energy_lost);
-        let change = kinetic + potential - self.report.start_energy;
-        outputs.real("energy.residual", change - counts.energy_input + counts.energy_lost);
+        self.energies().write(&mut outputs, &counts, self.report.start_energy);
         outputs.real("collisions", (counts.disk_impacts + counts.wall_impacts) as f64);
         outputs.reals("disk.angle", seen.iter().map(|disk| disk.2));
         outputs.reals("disk.angular_velocity", seen.iter().map(|disk| disk.3));
@@ -214,18 +195,13 @@ impl<R: HardRun> Scene for HardPacking<R> {
     }
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
-        let Report {
-            time,
-            reaction_force,
-            start_energy,
-        } = state.report;
         let remedy = "Restore states of the same scene, disk count and parameters only.";
-        if !(self.run.fits(&state.engine) && are_sane([time, reaction_force, start_energy])) {
+        if !(self.run.fits(&state.engine) && state.report.is_sane()) {
             return Err(Error::state("it is not a state of this run", remedy));
         }
         let former = self.run.state();
         self.run.restore(&state.engine);
-        if !self.is_sane(time) {
+        if !self.is_sane(state.report.time) {
             self.run.restore(&former);
             return Err(Error::state("it holds numbers that no packing has", remedy));
         }

@@ -6,13 +6,14 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::collision::{ContactTime, Dashpot, TabulatedDashpot, effective_mass};
-use crate::drive::{Drive, FollowsInput, Motion, RandomPhase, Sine};
+use crate::drive::{Motion, RandomPhase, Sine};
 use crate::engine::event_driven::{
-    AtRandomPhase, Counts, EventDriven, Gravity, Moving, NoHeadway, Open, Settings, State, VibratingBase, Walls,
+    AtRandomPhase, Counts, EventDriven, Gravity, Moving, NoHeadway, Open, Settings, State, Walls,
 };
 use crate::error::{Error, Result};
 use crate::geometry::{Disk, Wall};
 use crate::scene::base_drive::BaseDrive;
+use crate::scene::hard_disks::HardBase;
 use crate::scene::{Unit, Values, Variable};
 
 /// Law of the packing: stick and slip of the soft contact from a table, without loss in impacts that follow at once.
@@ -62,52 +63,7 @@ pub trait HardRun: Sized + Send + 'static {
     fn restore(&mut self, state: &Self::State);
 }
 
-/// A base that the packing can have.
-pub trait PackingBase: VibratingBase {
-    /// Where its variables come from.
-    type Drive: BaseDrive;
-    /// The base as the parameters tell.
-    ///
-    /// # Errors
-    /// Values that are no motion.
-    fn from_values(start_time: f64, values: &Values) -> Result<Self>;
-    /// Takes new inputs; false if nothing has changed.
-    fn aim(&mut self, time: f64, duration: f64, values: &Values) -> bool;
-}
-
-impl PackingBase for Moving<Sine> {
-    type Drive = Sine;
-
-    fn from_values(start_time: f64, values: &Values) -> Result<Self> {
-        let drive = <Sine as BaseDrive>::new(start_time, values)?;
-        Ok(Self {
-            drive,
-            farthest: drive.amplitude,
-        })
-    }
-
-    fn aim(&mut self, _time: f64, _duration: f64, _values: &Values) -> bool {
-        false
-    }
-}
-
-impl PackingBase for Moving<FollowsInput> {
-    type Drive = FollowsInput;
-
-    fn from_values(start_time: f64, values: &Values) -> Result<Self> {
-        let drive = <FollowsInput as BaseDrive>::new(start_time, values)?;
-        let farthest = drive.motion(start_time).displacement;
-        Ok(Self { drive, farthest })
-    }
-
-    fn aim(&mut self, time: f64, duration: f64, values: &Values) -> bool {
-        BaseDrive::aim(&mut self.drive, time, duration, values);
-        self.farthest = self.drive.highest();
-        true
-    }
-}
-
-impl PackingBase for AtRandomPhase {
+impl HardBase for AtRandomPhase {
     type Drive = Sine;
 
     fn from_values(start_time: f64, values: &Values) -> Result<Self> {
@@ -126,7 +82,7 @@ impl PackingBase for AtRandomPhase {
     }
 }
 
-impl<W: PackingBase> HardRun for HardDisks<W> {
+impl<W: HardBase> HardRun for HardDisks<W> {
     type State = State<Walls<W>>;
     type Base = W::Drive;
 

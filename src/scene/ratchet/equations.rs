@@ -15,7 +15,9 @@ horizontal extent of the left side; the tip is rounded by an arc tangent to both
 <li>tangential impulse: what stops the surfaces, at most &mu; times the normal impulse</li>
 <li>velocities are relative to the base at the instant of contact</li>
 <li><code>transport_velocity</code>: displacement of the disks, periods undone, over the time since
-<code>measure.start</code>; an exact time average</li>
+<code>measure.start</code>, or since the last communication point where the input <code>measure.mark</code> had changed;
+an exact time average. Its standard error is that of up to 64 batches of the same duration, its spread the standard
+deviation over the disks of their own averages; <code>base.mean_power</code> is averaged over the same time</li>
 <li><code>layers</code>: <i>n</i> = <i>N</i>/<i>k</i>, <i>k</i> = width of the cell over 2 <code>disk.radius_min</code></li>
 <li>base driven by the inputs: between two communication points a distance <i>H</i> apart it moves on the cubic that
 continues its displacement and velocity and ends at <code>base.displacement</code> + <i>H</i>

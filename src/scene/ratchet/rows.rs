@@ -11,6 +11,12 @@ pub fn rows(choice: Choice, drive: Vec<Variable>) -> Vec<Variable> {
     rows.extend(teeth());
     rows.extend(disks());
     rows.extend(drive.into_iter().map(of_the_ratchet));
+    rows.push(Variable::input(
+        "measure.mark",
+        Unit::Second,
+        1.0,
+        "The averages start anew at a communication point where this value has changed; any new value will do",
+    ));
     rows.extend(calculated(choice.disks));
     rows.extend(outputs());
     rows.extend(each_disk(choice.disks));
@@ -56,7 +62,7 @@ fn general() -> Vec<Variable> {
             Unit::Second,
             0.0..=1e9,
             0.0,
-            "Time from which transport_velocity is averaged",
+            "Time from which transport_velocity and what belongs to it are averaged at first",
         ),
         Variable::parameter(
             "collision.restitution",
@@ -173,7 +179,20 @@ fn outputs() -> Vec<Variable> {
             "transport_velocity",
             Unit::MetrePerSecond,
             0.1,
-            "Mean horizontal velocity of the disks since measure.start: their displacement over the time; 0 before",
+            "Mean horizontal velocity of the disks since measure.start or the last change of measure.mark: their \
+             displacement over the time; 0 before",
+        ),
+        Variable::output(
+            "transport_velocity.standard_error",
+            Unit::MetrePerSecond,
+            1e-2,
+            "Standard error of transport_velocity from batch means; 0 in the first 0.8 s",
+        ),
+        Variable::output(
+            "transport_velocity.spread",
+            Unit::MetrePerSecond,
+            1e-2,
+            "Standard deviation over the disks of each one's own mean velocity over the same time",
         ),
         Variable::output(
             "mean_angular_velocity",
@@ -193,6 +212,12 @@ fn outputs() -> Vec<Variable> {
             Unit::MetrePerSecondSquared,
             10.0,
             "Acceleration of the base now, up",
+        ),
+        Variable::output(
+            "base.mean_power",
+            Unit::Watt,
+            1e-4,
+            "Work of the base on the disks over the time that transport_velocity is averaged over, divided by it",
         ),
         energy("energy.kinetic", "Kinetic energy of translation and rotation"),
         energy(

@@ -54,7 +54,7 @@ fn geometry() -> Vec<Variable> {
         Variable::parameter(
             "wedge.aperture",
             Unit::Radian,
-            1.047..=3.139,
+            1.047..=3.14,
             2.0944,
             "Angle theta_W between the walls",
         ),

@@ -1,9 +1,9 @@
 //! Oscillators on a shaken base: a scene as small as can be that has one variable of each kind, for the tests of the FMI
-//! boundary, and that can be told to refuse a step or to panic.
+//! boundary, and that can be told to refuse a step or to panic. It has an event: disk 1 passes height zero.
 //!
 //! x'' = -(k / m) (x - base) - (c / m) (v - base'), semi-implicit Euler on the fixed grid start + n time step.
 
-use jostle::scene::{Card, Choice, OutputWriter, Scene, Unit, Values, Variable};
+use jostle::scene::{Card, Choice, OutputWriter, Reached, Scene, Unit, Values, Variable};
 use jostle::{Error, Result};
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +41,8 @@ pub struct Probe {
 
 impl Scene for Probe {
     type State = State;
+
+    const EVENTS: bool = true;
 
     fn card() -> Card {
         Card {
@@ -149,21 +151,25 @@ impl Scene for Probe {
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        if end_time > self.refuse_time {
-            return Err(Error::Step {
-                scene: "probe",
-                time: self.refuse_time,
-                what: format!("the end {end_time} s lies beyond fault.refuse_time; 100% sure"),
-                remedy: "Take a shorter step.".into(),
-            });
-        }
-        assert!(end_time <= self.panic_time, "told to panic at {} s", self.panic_time);
-        let (height, rate) = (values.real("base.displacement"), values.real("base.velocity"));
-        let reached = end_time + GRID_TOLERANCE * TIME_STEP;
-        while self.start + (self.state.steps + 1) as f64 * TIME_STEP <= reached {
-            self.step(height, rate);
+        self.check(end_time)?;
+        while self.next_point() <= latest(end_time) {
+            self.step(values);
         }
         Ok(())
+    }
+
+    fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        self.check(end_time)?;
+        let mut event = false;
+        let mut time = end_time;
+        while !event && self.next_point() <= latest(end_time) {
+            time = self.next_point().min(end_time);
+            let before = self.state.displacements[0];
+            self.step(values);
+            event = (before < 0.0) != (self.state.displacements[0] < 0.0);
+        }
+        let time = if event { time } else { end_time };
+        Ok(Reached { time, event })
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
@@ -192,8 +198,31 @@ impl Scene for Probe {
     }
 }
 
+/// The latest grid point that a step to `end_time` reaches.
+fn latest(end_time: f64) -> f64 {
+    end_time + GRID_TOLERANCE * TIME_STEP
+}
+
 impl Probe {
-    fn step(&mut self, height: f64, rate: f64) {
+    fn check(&self, end_time: f64) -> Result<()> {
+        if end_time > self.refuse_time {
+            return Err(Error::Step {
+                scene: "probe",
+                time: self.refuse_time,
+                what: format!("the end {end_time} s lies beyond fault.refuse_time; 100% sure"),
+                remedy: "Take a shorter step.".into(),
+            });
+        }
+        assert!(end_time <= self.panic_time, "told to panic at {} s", self.panic_time);
+        Ok(())
+    }
+
+    fn next_point(&self) -> f64 {
+        self.start + (self.state.steps + 1) as f64 * TIME_STEP
+    }
+
+    fn step(&mut self, values: &Values) {
+        let (height, rate) = (values.real("base.displacement"), values.real("base.velocity"));
         let state = &mut self.state;
         state.steps += 1;
         state.force = 0.0;

@@ -1,0 +1,71 @@
+//! Engines of soft disks as the report sees them: the same start, the same end, places and rates.
+//!
+//! A new engine is one more implementation, and one more line in [`each_engine`].
+
+use jostle::drive::Sine;
+use jostle::engine::molecular_dynamics::{Breakdown, Gear5, Integrator, MolecularDynamics, Setup, VelocityVerlet};
+use jostle::geometry::Disk;
+
+/// An engine that advances soft disks over a sine base.
+pub trait SoftEngine: Clone + 'static {
+    /// Name of its curves.
+    const METHOD: &'static str;
+    /// Passes over all contacts in a step.
+    const PASSES: f64;
+
+    /// Disks at `rates` (x, y, spin), whose contacts hold nothing yet.
+    fn start(setup: Setup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self;
+
+    /// Advances to `end_time` \[s\].
+    fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown>;
+
+    /// x, y and angle of each of `count` disks.
+    fn places(&self, count: usize) -> Vec<[f64; 3]>;
+
+    /// Velocities and angular velocity of the first disk.
+    fn first_rate(&self) -> [f64; 3];
+
+    /// Steps done.
+    fn steps(&self) -> u64;
+}
+
+impl<I: Integrator> SoftEngine for MolecularDynamics<I, Sine> {
+    const METHOD: &'static str = I::NAME;
+    const PASSES: f64 = 1.0;
+
+    fn start(setup: Setup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self {
+        let mut engine = Self::new(setup, disks, drive);
+        engine.set_motion(|state| state.velocity[..3 * rates.len()].copy_from_slice(rates.as_flattened()));
+        engine
+    }
+
+    fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
+        Self::advance_to(self, end_time)
+    }
+
+    fn places(&self, count: usize) -> Vec<[f64; 3]> {
+        self.now().places()[..count].to_vec()
+    }
+
+    fn first_rate(&self) -> [f64; 3] {
+        self.now().rates()[0]
+    }
+
+    fn steps(&self) -> u64 {
+        self.state().steps
+    }
+}
+
+/// Velocity Verlet on a sine.
+pub type Verlet = MolecularDynamics<VelocityVerlet, Sine>;
+/// Gear's method on a sine.
+pub type Gear = MolecularDynamics<Gear5, Sine>;
+
+/// The points that `$point::<Engine>(...)` makes, for each engine.
+macro_rules! each_engine {
+    ($points:ident, $point:ident($($argument:expr),*)) => {
+        $points.push($point::<$crate::command_line::report::engines::Verlet>($($argument),*));
+        $points.push($point::<$crate::command_line::report::engines::Gear>($($argument),*));
+    };
+}
+pub(super) use each_engine;

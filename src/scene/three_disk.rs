@@ -1,0 +1,291 @@
+//! Scene `three_disk`: one disk on two supports that it hardly ever leaves, turned by a torque or by vibration (P 4, 5).
+//!
+//! What turns it is a type; nothing of one is compiled into another.
+
+mod drives;
+mod equations;
+mod outputs;
+mod rows;
+
+use serde::{Deserialize, Serialize};
+
+use crate::drive::excitation::{HarmonicTorque, HeldTorque, Piece, RandomSupports, SineSupports};
+use crate::engine::three_disk::{Record, Setup, State, Stuck, ThreeDisk as Engine, TimeStepLimits, equilibrium};
+use crate::error::{Error, Result, are_sane};
+use crate::measure::BatchMeans;
+
+use super::{Card, Choice, OutputWriter, Reached, Scene, Values, Variable};
+pub use drives::ThreeDiskDrive;
+use outputs::{Energies, energies};
+
+/// [`ThreeDisk`] under the torque of an input.
+pub type ThreeDiskOnInput = ThreeDisk<HeldTorque>;
+/// [`ThreeDisk`] under a harmonic torque (P 5.2).
+pub type ThreeDiskOnHarmonicTorque = ThreeDisk<HarmonicTorque>;
+/// [`ThreeDisk`] on supports that vibrate randomly (P 5.3).
+pub type ThreeDiskOnRandomSupports = ThreeDisk<RandomSupports>;
+/// [`ThreeDisk`] on supports that vibrate sinusoidally.
+pub type ThreeDiskOnSine = ThreeDisk<SineSupports>;
+
+const NAME: &str = "three_disk";
+
+/// First duration of a batch of the running standard error \[s\] where no period is known; it doubles as the run goes on.
+const FIRST_BATCH: f64 = 1e-2;
+
+/// A disk on two supports, driven by E.
+#[derive(Debug)]
+pub struct ThreeDisk<E> {
+    engine: Engine<E>,
+    /// Energy at the start \[J\].
+    energy: f64,
+    report: Report,
+}
+
+/// What the last communication step reported, and what is taken since measure.start.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Time reached \[s\].
+    pub time: f64,
+    /// Vertical force of the disk on the supports \[N\], mean over the last communication step.
+    pub reaction_force: f64,
+    /// The angle turned, read at the ends of batches.
+    pub turning: BatchMeans,
+    /// What the contacts had done at measure.start.
+    pub before: Option<Record>,
+}
+
+/// State of a [`ThreeDisk`]: the engine's, and the report.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ThreeDiskState<E> {
+    /// The engine's.
+    pub engine: State<E>,
+    /// The last communication step and what is taken since measure.start.
+    pub report: Report,
+}
+
+fn refusal(stuck: Stuck) -> Error {
+    Error::Step {
+        scene: NAME,
+        time: stuck.time,
+        what: "no progress: contacts change more than 1000 times in one time step".into(),
+        remedy: "Lower time_step, or raise contact.normal_damping.".into(),
+    }
+}
+
+fn chosen_time_step(given: f64, limits: &TimeStepLimits) -> Result<f64> {
+    if given == 0.0 {
+        return Ok(limits.default);
+    }
+    if given > limits.largest {
+        return Err(Error::parameter(
+            "time_step",
+            format!("{given:e} s"),
+            format!("0, or up to {:e} s with these contacts and this drive", limits.largest),
+            "Leave it 0, or soften the contacts or slow the drive down.",
+        ));
+    }
+    Ok(given)
+}
+
+impl<E: ThreeDiskDrive> ThreeDisk<E> {
+    /// The engine, to look at everything that is no output.
+    pub fn engine(&self) -> &Engine<E> {
+        &self.engine
+    }
+
+    /// Runs to `end_time`, reading the angle wherever a batch ends, or if `stop` says so to the first event before. Says
+    /// when it ended and whether an event ended it. Looking costs little and changes nothing.
+    fn run(&mut self, end_time: f64, stop: bool) -> Result<Reached> {
+        loop {
+            let due = self.report.turning.due();
+            let end = due.min(end_time);
+            if self.engine.advance(end, stop).map_err(refusal)? {
+                let time = self.engine.state().time;
+                return Ok(Reached { time, event: true });
+            }
+            if due > end_time {
+                return Ok(Reached {
+                    time: end_time,
+                    event: false,
+                });
+            }
+            let now = &self.engine.state().now;
+            self.report.before.get_or_insert(now.record);
+            self.report.turning.record(now.angle());
+        }
+    }
+
+    fn go(&mut self, end_time: f64, values: &Values, stop: bool) -> Result<Reached> {
+        let backup = self.state();
+        let from = self.report.time;
+        let upward = self.engine.state().now.disk[4];
+        self.engine.steer(|excitation| excitation.aim(from, values));
+        let checked = |scene: &mut Self| {
+            let reached = scene.run(end_time, stop)?;
+            scene.check(reached.time).map(|()| reached)
+        };
+        let reached = match checked(self) {
+            Ok(reached) => reached,
+            Err(error) => {
+                self.engine.restore(&backup.engine);
+                self.report = backup.report;
+                return Err(error);
+            }
+        };
+        let (now, setup) = (&self.engine.state().now, self.engine.setup());
+        let gained = (now.disk[4] - upward) / (reached.time - from);
+        self.report.reaction_force = -setup.mass * (gained + setup.gravity);
+        self.report.time = reached.time;
+        Ok(reached)
+    }
+
+    /// Whether the disk, its energies and its forces are finite and far from overflow.
+    fn is_sane(&self) -> bool {
+        let look = self.engine.look();
+        let Energies {
+            kinetic,
+            potential,
+            elastic,
+        } = energies(&self.engine, &look);
+        let forces = look.contacts.iter().flat_map(|at| [at.normal, at.tangential]);
+        self.engine.state().now.is_sane() && are_sane([kinetic, potential, elastic]) && are_sane(forces)
+    }
+
+    /// Whether the disk is still above its supports and everything is finite.
+    fn check(&self, time: f64) -> Result<()> {
+        let (now, setup) = (&self.engine.state().now, self.engine.setup());
+        let refused = |what: String, remedy: &str| {
+            Err(Error::Step {
+                scene: NAME,
+                time,
+                what,
+                remedy: remedy.into(),
+            })
+        };
+        if !self.is_sane() {
+            return refused(
+                "the disk is beyond 1e100 or no longer finite".into(),
+                "Check the amplitudes and the inputs.",
+            );
+        }
+        let [x, y, ..] = now.disk;
+        if setup.curvature > 0.0 && (y < -setup.radius || x.abs() > 2.0 * setup.radius) {
+            return refused(
+                format!("the disk has fallen off its supports: it is at x = {x} m, y = {y} m"),
+                "Drive it less, tilt it less, or take support.shape walls.",
+            );
+        }
+        Ok(())
+    }
+}
+
+impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
+    type State = ThreeDiskState<E>;
+
+    const EVENTS: bool = true;
+
+    fn card() -> Card {
+        Card {
+            scene: NAME,
+            identifier: E::IDENTIFIER,
+            engine: "molecular-dynamics",
+            drive: E::NAME,
+            description: E::DESCRIPTION,
+            equations: equations::HTML,
+            disks: 1..=1,
+            default_disks: 1,
+            stop_time: 10.0,
+            step_size: 1e-2,
+        }
+    }
+
+    fn variables(_choice: Choice) -> Vec<Variable> {
+        rows::rows(E::variables(), E::outputs())
+    }
+
+    fn new(_choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
+        let bench = rows::bench(values)?;
+        let limits = TimeStepLimits::of(&bench, E::period(values));
+        let time_step = chosen_time_step(values.real("time_step"), &limits)?;
+        let excitation = E::new(start_time, time_step, values);
+        let rest = equilibrium(&bench, &excitation.piece(start_time).supports(0.0)).map_err(|_| {
+            let weight = bench.mass * bench.gravity;
+            Error::parameter(
+                "contact.normal_stiffness",
+                format!("{} N/m", bench.normal.stiffness),
+                format!(
+                    "so large that the weight {weight} N rests on both contacts with overlaps far below the radius"
+                ),
+                "Raise it, or lower disk.mass, tilt or the amplitude of the supports.",
+            )
+        })?;
+        let place = [rest[0], rest[1] + values.real("disk.drop_height"), 0.0];
+        let rates = [0.0, 0.0, values.real("disk.initial_angular_velocity")];
+        let engine = Engine::new(Setup::new(bench, time_step), excitation, start_time, place, rates);
+        let begin = start_time.max(values.real("measure.start"));
+        let Energies {
+            kinetic,
+            potential,
+            elastic,
+        } = energies(&engine, &engine.look());
+        let mut scene = Self {
+            engine,
+            energy: kinetic + potential + elastic,
+            report: Report {
+                time: start_time,
+                reaction_force: 0.0,
+                turning: BatchMeans::new(begin, E::batch(values).unwrap_or(FIRST_BATCH)),
+                before: None,
+            },
+        };
+        scene.run(start_time, false)?;
+        Ok(scene)
+    }
+
+    fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
+        self.go(end_time, values, false).map(|_| ())
+    }
+
+    fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        self.go(end_time, values, true)
+    }
+
+    fn write_outputs(&self, outputs: OutputWriter<'_>) {
+        outputs::write(&self.engine, &self.report, self.energy, outputs);
+    }
+
+    fn state(&self) -> Self::State {
+        ThreeDiskState {
+            engine: self.engine.state().clone(),
+            report: self.report.clone(),
+        }
+    }
+
+    fn restore(&mut self, state: &Self::State) -> Result<()> {
+        let refused = || {
+            let remedy = "Restore states of the same scene and parameters only.";
+            Error::state("it cannot be that of this disk on two supports", remedy)
+        };
+        let Report {
+            time,
+            reaction_force,
+            turning,
+            before,
+        } = &state.report;
+        let engine = &state.engine;
+        let drives = engine.excitation.continues(&self.engine.state().excitation);
+        let means = turning.continues(&self.report.turning, 0.0) && turning.due() > *time;
+        let record = before.is_none_or(|record| record.is_sane());
+        if !(self.engine.fits(engine, *time) && drives && means && record && are_sane([*reaction_force])) {
+            return Err(refused());
+        }
+        let former = self.engine.state().clone();
+        self.engine.restore(engine);
+        if !self.is_sane() {
+            self.engine.restore(&former);
+            return Err(refused());
+        }
+        self.report = state.report.clone();
+        Ok(())
+    }
+}

@@ -1,0 +1,55 @@
+"""The page of work-precision diagrams is what its data say."""
+
+import math
+from pathlib import Path
+
+import pytest
+from jostle_lab import stability_page
+from jostle_lab.errors import LabError
+from jostle_lab.work_precision import Point, diagrams, draw_all, order, page, time_at
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def curve(errors: list[float], times: list[float]) -> list[Point]:
+    return [Point(1.0, error, 0.0, time, time) for error, time in zip(errors, times, strict=True)]
+
+
+def test_committed_page_is_that_of_the_committed_data() -> None:
+    written = page(ROOT / "docs/report", "report")
+    assert written == (ROOT / "docs/report.md").read_text(), "write it anew: python -m jostle_lab report"
+
+
+def test_committed_stability_page_is_that_of_the_committed_data() -> None:
+    written = stability_page.page(ROOT / "docs/stability")
+    assert written == (ROOT / "docs/stability.md").read_text(), "write it anew: python -m jostle_lab stability"
+
+
+def test_every_case_has_points_and_a_small_picture(tmp_path: Path) -> None:
+    found = diagrams(ROOT / "docs/report")
+    assert all(diagram.curves or diagram.troubles for diagram in found)
+    pictures = draw_all(found, tmp_path)
+    assert {picture.name for picture in pictures} == {p.name for p in (ROOT / "docs/report").glob("*.png")}
+    assert sum(picture.stat().st_size for picture in pictures) < 200_000
+
+
+def test_order_is_the_slope() -> None:
+    times = [1.0, 2.0, 4.0, 8.0]
+    assert order(curve([t**-4 for t in times], times)) == pytest.approx(4.0)
+    assert order(curve([1e-3, 1e-4], [1.0, 10.0])) is None
+    assert order(curve([1e-15, 1e-16, 1e-15], times[:3])) is None
+
+
+def test_time_at_an_error_lies_on_the_curve() -> None:
+    falling = curve([1e-2, 1e-4], [1.0, 100.0])
+    assert time_at(falling, 1e-3) == pytest.approx(10.0)
+    assert time_at(falling, 1e-5) is None
+    assert time_at(falling, 1.0) == 1.0
+    rising_again = curve([1e-2, 1e-4, 1e-2, 1e-5], [1.0, 2.0, 4.0, 8.0])
+    crossed = time_at(rising_again, 1e-3)
+    assert crossed is not None and 4.0 < crossed < 8.0 and not math.isnan(crossed)
+
+
+def test_a_folder_without_data_is_told(tmp_path: Path) -> None:
+    with pytest.raises(LabError, match="jostle report --out"):
+        diagrams(tmp_path)

@@ -344,6 +344,31 @@ fn errors_fall_with_a_high_power_of_the_step() {
     assert!(order > 6.0 && errors[1] < 1e-10, "{errors:?}: order {order}");
 }
 
+/// P's torque at 1 rad/s: the disk slides, stops and shivers with slips of microseconds. Each is found, whatever the step.
+#[test]
+fn short_slips_are_found_whatever_the_step() {
+    let torque = HarmonicTorque {
+        amplitude: 0.15,
+        angular_frequency: 1.0,
+    };
+    let run = |radians: f64| {
+        let mut engine = disk(&THESIS, torque, radians, rest(&THESIS), [0.0; 3]);
+        engine.advance(4.0, false).unwrap();
+        (motion(&engine), engine.state().now.record.slips)
+    };
+    let (fine, slips) = run(0.25);
+    assert!(slips > 30, "{slips}");
+    for radians in [0.5, 1.0] {
+        let (found, counted) = run(radians);
+        println!(
+            "{radians} rad: {counted} slips of {slips}, off by {:.1e}",
+            distance(&found, &fine)
+        );
+        assert_eq!(counted, slips);
+        assert!(distance(&found, &fine) < 1e-10);
+    }
+}
+
 /// A torque of ten times the limit, and no friction at all: plain spinning up between frictional torques.
 #[test]
 fn spins_up_as_coulomb_says() {

@@ -1,14 +1,19 @@
 //! `jostle fmu`: writes a scene as an FMU.
 
 use std::path::PathBuf;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use clap::{Args, ValueEnum};
+use jostle::Error;
 use jostle::fmi::Version;
 use jostle::fmi::bundle::{self, Component};
 use jostle::scene::{Choice, Scene};
 
 use super::scenes::{Visitor, with_scene};
 use super::{Failure, Selection};
+
+/// The last second of the year 9999.
+const LATEST_DATE: u64 = 253_402_300_799;
 
 /// Write a scene as an FMU.
 ///
@@ -25,6 +30,10 @@ pub struct Fmu {
     /// What moves the base, such as input (the importer) or sine. Without it the engine's first: input where it has one.
     #[arg(long)]
     drive: Option<String>,
+    /// One array variable instead of scalars with an index, such as disk.angle for disk.angle[1] and so on. FMI 3.0 only,
+    /// and not every importer reads arrays; for large counts.
+    #[arg(long)]
+    arrays: bool,
     /// File to write.
     #[arg(long, value_name = "FILE.fmu")]
     out: PathBuf,
@@ -47,7 +56,7 @@ impl Fmu {
     /// An unknown scene, engine or drive, a wrong disk count, no library to put in, no place to write to.
     pub fn execute(self) -> Result<(), Failure> {
         let engine = self.selection.engine.clone();
-        let component = with_scene(
+        let mut component = with_scene(
             &self.selection.scene,
             engine.as_deref(),
             self.drive.as_deref(),
@@ -57,9 +66,27 @@ impl Fmu {
             Standard::Two => Version::Two,
             Standard::Three => Version::Three,
         };
+        component.arrays = self.arrays;
+        component.date = Some(date()?);
         let library = bundle::find_library(component.card.identifier)?;
         Ok(bundle::write(&component, version, &library, &self.out)?)
     }
+}
+
+/// Now, or what SOURCE_DATE_EPOCH says (seconds since 1970), for FMUs of the same bytes: as the schema's dateTime.
+fn date() -> Result<String, Failure> {
+    let time = match std::env::var("SOURCE_DATE_EPOCH") {
+        Err(_) => SystemTime::now(),
+        Ok(given) => {
+            let seconds = given.parse().ok().filter(|seconds| *seconds <= LATEST_DATE);
+            let seconds = seconds.ok_or_else(|| {
+                let allowed = format!("whole seconds since 1970, up to {LATEST_DATE}");
+                Error::parameter("SOURCE_DATE_EPOCH", &given, allowed, "Correct or unset it.")
+            })?;
+            UNIX_EPOCH + Duration::from_secs(seconds)
+        }
+    };
+    Ok(humantime::format_rfc3339_seconds(time).to_string())
 }
 
 struct Bundled<'a>(&'a Selection);

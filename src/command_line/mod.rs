@@ -6,6 +6,7 @@ mod assignments;
 mod describe;
 mod fields;
 mod fmu;
+mod replay;
 mod report;
 mod run;
 mod scenes;
@@ -37,6 +38,7 @@ enum Command {
     Describe(describe::Describe),
     Fields(fields::Fields),
     Fmu(fmu::Fmu),
+    Replay(replay::Replay),
     Report(report::Report),
     Run(run::Run),
     Stability(stability::Stability),
@@ -125,6 +127,7 @@ impl fmt::Display for Failure {
 pub fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Describe(describe) => describe.execute(),
+        Command::Replay(replay) => replay.execute(),
         Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
         Command::Report(report) => report.execute(),

@@ -1,4 +1,5 @@
-//! Scene, choice and library in, an `.fmu` file out. The same input gives the same bytes: no dates, fixed order.
+//! Scene, choice and library in, an `.fmu` file out. The same input gives the same bytes: fixed order, no date but that of the
+//! component.
 //!
 //! What is inside:
 //! ```text
@@ -6,6 +7,7 @@
 //! binaries/linux64/<identifier>.so          FMI 2.0
 //! binaries/x86_64-linux/<identifier>.so     FMI 3.0
 //! documentation/index.html, documentation/licenses/
+//! extra/jostle/reference.csv                what it computes, for `jostle replay`
 //! model.png                                 FMI 2.0
 //! terminalsAndIcons/                        FMI 3.0: flange and icon
 //! ```
@@ -19,7 +21,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use super::life_cycle::Version;
-use super::{documentation, icon, model_description, terminals};
+use super::{documentation, icon, model_description, reference, terminals, token};
 use crate::error::{Error, Result};
 use crate::scene::{Card, Choice, Scene, Variable};
 
@@ -27,7 +29,7 @@ const MIT: &str = include_str!("../../LICENSE-MIT");
 const APACHE: &str = include_str!("../../LICENSE-APACHE");
 
 /// A scene without its type: all that a bundle says about it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Component {
     /// Static facts.
     pub card: Card,
@@ -37,6 +39,12 @@ pub struct Component {
     pub rows: Vec<Variable>,
     /// Whether the scene has events for event mode ([`Scene::EVENTS`]).
     pub events: bool,
+    /// Computed variables with an index become arrays (FMI 3.0), see [`super::arrays`].
+    pub arrays: bool,
+    /// When the FMU was made, as `2026-11-24T06:00:00Z`; none where the same bytes are wanted each time.
+    pub date: Option<String>,
+    /// Runs the scene for its reference trajectory.
+    record: fn(Choice) -> Result<String>,
 }
 
 impl Component {
@@ -60,7 +68,23 @@ impl Component {
             choice,
             rows,
             events: S::EVENTS,
+            arrays: false,
+            date: None,
+            record: reference::record::<S>,
         })
+    }
+
+    /// Instantiation token (FMI 3.0) or GUID (FMI 2.0).
+    pub fn token(&self) -> String {
+        token::compose(&self.card, self.choice, &self.rows, self.arrays)
+    }
+
+    /// The reference trajectory, see [`reference`].
+    ///
+    /// # Errors
+    /// The table cannot be written.
+    pub fn reference(&self) -> Result<String> {
+        (self.record)(self.choice)
     }
 
     /// The `modelDescription.xml` of this component.
@@ -112,14 +136,22 @@ pub fn write(component: &Component, version: Version, library: &Path, out: &Path
 /// The bytes of the FMU.
 ///
 /// # Errors
-/// The archive cannot be made.
+/// Arrays in FMI 2.0, or the archive cannot be made.
 pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<u8>> {
+    if component.arrays && version == Version::Two {
+        return Err(Error::parameter(
+            "--arrays",
+            "with FMI 2.0",
+            "FMI 3.0, since FMI 2.0 has no arrays",
+            "Add --fmi 3 or leave --arrays out.",
+        ));
+    }
     let failed = |error: &dyn ToString| Error::call(format!("the archive: {}", error.to_string()), "Try again.");
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let plain = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .last_modified_time(DateTime::default());
-    for (path, content) in files(component, version)? {
+    for (path, content) in files(component, version, binary)? {
         archive
             .start_file(path, plain.unix_permissions(0o644))
             .map_err(|error| failed(&error))?;
@@ -137,8 +169,7 @@ pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Ve
     Ok(archive.finish().map_err(|error| failed(&error))?.into_inner())
 }
 
-fn files(component: &Component, version: Version) -> Result<Vec<(&'static str, Vec<u8>)>> {
-    let Component { card, choice, rows, .. } = component;
+fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(&'static str, Vec<u8>)>> {
     let license = format!(
         "SPDX-License-Identifier: {}\n\nThe texts are beside this file: LICENSE-MIT.txt, LICENSE-APACHE.txt.\n",
         model_description::LICENSE
@@ -150,18 +181,19 @@ fn files(component: &Component, version: Version) -> Result<Vec<(&'static str, V
         ),
         (
             "documentation/index.html",
-            documentation::write(card, *choice, rows, version).into_bytes(),
+            documentation::write(component, version, binary).into_bytes(),
         ),
         ("documentation/licenses/license.txt", license.into_bytes()),
         ("documentation/licenses/LICENSE-MIT.txt", MIT.into()),
         ("documentation/licenses/LICENSE-APACHE.txt", APACHE.into()),
+        (reference::PATH, component.reference()?.into_bytes()),
     ];
     match version {
         Version::Two => list.push(("model.png", icon::png()?)),
         Version::Three => {
             list.push((
                 "terminalsAndIcons/terminalsAndIcons.xml",
-                terminals::write(rows).into_bytes(),
+                terminals::write(&component.rows).into_bytes(),
             ));
             list.push(("terminalsAndIcons/icon.png", icon::png()?));
         }
@@ -170,7 +202,7 @@ fn files(component: &Component, version: Version) -> Result<Vec<(&'static str, V
 }
 
 /// Folder of the binary as each standard names this platform.
-fn platform(version: Version) -> String {
+pub fn platform(version: Version) -> String {
     match (version, OS) {
         (Version::Two, "linux") => "linux64".into(),
         (Version::Two, "macos") => "darwin64".into(),

@@ -1,11 +1,15 @@
 //! Card and variable table in, the documentation page inside the FMU out.
 
+use std::env::consts::{ARCH, OS};
+
 use quick_xml::escape::escape;
 
+use super::bundle::Component;
 use super::life_cycle::Version;
 use super::model_description::LICENSE;
-use super::value_reference;
-use crate::scene::{Card, Causality, Choice, Kind, Variable};
+use super::reference::PATH;
+use super::{arrays, value_reference};
+use crate::scene::{Card, Causality, Kind, Variable};
 
 const STYLE: &str = "body { font-family: sans-serif; max-width: 60em; margin: 2em auto; line-height: 1.4 } \
                      table { border-collapse: collapse } \
@@ -14,7 +18,8 @@ const STYLE: &str = "body { font-family: sans-serif; max-width: 60em; margin: 2e
                      code { background: #f4f4f4 }";
 
 /// The page: what it is, how to use it, its variables, its equations, its licence.
-pub fn write(card: &Card, choice: Choice, rows: &[Variable], version: Version) -> String {
+pub fn write(component: &Component, version: Version, binary: &[u8]) -> String {
+    let Component { card, choice, .. } = component;
     let title = format!("{} ({})", card.scene, card.engine);
     let standard = match version {
         Version::Two => "FMI 2.0",
@@ -25,7 +30,7 @@ pub fn write(card: &Card, choice: Choice, rows: &[Variable], version: Version) -
          <style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n<p>{description}</p>\n\
          <p>Co-simulation FMU for {standard}, {disks} disks, drive: {drive}. Made by jostle {tool}.</p>\n\
          <h2>Use</h2>\n{usage}<h2>Variables</h2>\n{tables}<h2>Equations</h2>\n{equations}\n\
-         <h2>Licence</h2>\n<p>{LICENSE}; the texts are in <code>licenses</code> beside this page.</p>\n\
+         <h2>Build</h2>\n{build}<h2>Licence</h2>\n<p>{LICENSE}; the texts are in <code>licenses</code> beside this page.</p>\n\
          </body>\n</html>\n",
         title = escape(title.as_str()),
         description = escape(card.description),
@@ -33,8 +38,20 @@ pub fn write(card: &Card, choice: Choice, rows: &[Variable], version: Version) -
         drive = escape(card.drive),
         tool = env!("CARGO_PKG_VERSION"),
         usage = usage(card),
-        tables = tables(rows),
+        tables = tables(component),
         equations = card.equations,
+        build = build(component, binary),
+    )
+}
+
+fn build(component: &Component, binary: &[u8]) -> String {
+    let date = component.date.iter().map(|date| format!(", {date}"));
+    let date: String = date.collect();
+    let (version, length, checksum) = (env!("CARGO_PKG_VERSION"), binary.len(), crc32fast::hash(binary));
+    format!(
+        "<p>jostle {version}{date}. The library has {length} bytes, CRC-32 {checksum:08x}; it was built for any {ARCH} \
+         processor on {OS}. What it computes from its default parameters is in <code>{PATH}</code> of this FMU: \
+         <code>jostle replay FILE.fmu</code> runs the library and compares.</p>\n"
     )
 }
 
@@ -54,7 +71,13 @@ fn usage(card: &Card) -> String {
     )
 }
 
-fn tables(rows: &[Variable]) -> String {
+fn tables(component: &Component) -> String {
+    let rows = &component.rows;
+    let spans = if component.arrays {
+        arrays::spans(rows)
+    } else {
+        vec![1; rows.len()]
+    };
     let groups = [
         ("Parameters", Causality::Parameter),
         ("Inputs", Causality::Input),
@@ -66,7 +89,7 @@ fn tables(rows: &[Variable]) -> String {
         let group: Vec<_> = rows
             .iter()
             .enumerate()
-            .filter(|(_, row)| row.causality == causality)
+            .filter(|(position, row)| row.causality == causality && spans[*position] > 0)
             .collect();
         if group.is_empty() {
             continue;
@@ -76,14 +99,18 @@ fn tables(rows: &[Variable]) -> String {
              <th>Value reference</th><th>Description</th></tr>\n"
         ));
         for (position, row) in group {
-            text.push_str(&table_row(position, row));
+            let name = match component.arrays && arrays::begins(row) {
+                true => format!("{} ({} elements)", arrays::name(&row.name), spans[position]),
+                false => row.name.clone(),
+            };
+            text.push_str(&table_row(&name, position, row));
         }
         text.push_str("</table>\n");
     }
     text
 }
 
-fn table_row(position: usize, row: &Variable) -> String {
+fn table_row(name: &str, position: usize, row: &Variable) -> String {
     let given = matches!(row.causality, Causality::Parameter | Causality::Input);
     let (unit, range, start) = match &row.kind {
         Kind::Real(quantity) => {
@@ -109,7 +136,7 @@ fn table_row(position: usize, row: &Variable) -> String {
     format!(
         "<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>\
          <td>{}</td></tr>\n",
-        escape(row.name.as_str()),
+        escape(name),
         escape(unit),
         range,
         if given { start } else { String::new() },

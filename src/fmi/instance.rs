@@ -4,42 +4,21 @@
 //! phase brings back the same bits. Not here: pointers, panics and log messages (`abi`), legal phases (`life_cycle`).
 
 mod saving;
+mod values;
 
 use std::sync::Arc;
 
 use super::life_cycle::{Call, Phase};
 use super::snapshot::Clock;
-use super::{TIME_REFERENCE, token};
+use super::{arrays, token};
 use crate::error::{Error, Result};
-use crate::scene::{Causality, Choice, Kind, Reached, Scene, Table, Value, Values, Variable};
+use crate::scene::{Causality, Choice, Kind, Reached, Scene, Table, Value, Values};
+pub use values::Access;
 
 /// Importers add up communication points in their own way; as much of a step may differ from ours.
 const POINT_TOLERANCE_OF_STEP: f64 = 1e-6;
 /// As many units in the last place of the time may differ besides.
 const POINT_TOLERANCE_OF_TIME: f64 = 64.0 * f64::EPSILON;
-
-/// The type by which an importer reads or writes a variable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Access {
-    /// `fmi2Real`, `fmi3Float64`.
-    Real,
-    /// `fmi3Int32`.
-    Integer,
-    /// `fmi3Int64`, which serves enumerations too.
-    Long,
-    /// `fmi2Integer`, which serves all whole numbers.
-    AnyInteger,
-}
-
-impl Access {
-    fn fits(self, kind: &Kind) -> bool {
-        match kind {
-            Kind::Real(_) => self == Self::Real,
-            Kind::Integer { .. } => matches!(self, Self::Integer | Self::AnyInteger),
-            Kind::Long { .. } | Kind::Enumeration { .. } => matches!(self, Self::Long | Self::AnyInteger),
-        }
-    }
-}
 
 /// What the importer said that it can do when it made the instance (FMI 3.0; in FMI 2.0 nothing of this).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -53,6 +32,8 @@ pub struct Importer {
 /// One component.
 pub struct Instance<S: Scene> {
     token: String,
+    /// Elements of the variable at each position, if there are arrays.
+    spans: Option<Arc<[usize]>>,
     choice: Choice,
     importer: Importer,
     phase: Phase,
@@ -69,19 +50,28 @@ impl<S: Scene> Instance<S> {
     /// # Errors
     /// The token is not of this scene, or the importer wants event mode of a scene that has no events.
     pub fn new(token: &str, importer: Importer) -> Result<Self> {
-        let (choice, rows) = token::read::<S>(token)?;
+        let contents = token::read::<S>(token)?;
         if importer.event_mode && !S::EVENTS {
             return Err(Error::call(
                 "event mode is not offered (hasEventMode = false)",
                 "Pass eventModeUsed = false.",
             ));
         }
-        Ok(Self::start(token.into(), choice, importer, Arc::new(Table::new(rows))))
+        let spans = contents.arrays.then(|| arrays::spans(&contents.rows).into());
+        let table = Arc::new(Table::new(contents.rows));
+        Ok(Self::start(token.into(), contents.choice, importer, table, spans))
     }
 
-    fn start(token: String, choice: Choice, importer: Importer, table: Arc<Table>) -> Self {
+    fn start(
+        token: String,
+        choice: Choice,
+        importer: Importer,
+        table: Arc<Table>,
+        spans: Option<Arc<[usize]>>,
+    ) -> Self {
         Self {
             token,
+            spans,
             choice,
             importer,
             phase: Phase::Instantiated,
@@ -316,101 +306,20 @@ impl<S: Scene> Instance<S> {
 
     /// Becomes as a new instance, whatever happened before.
     pub fn reset(&mut self) {
-        let table = Arc::clone(self.values.table());
-        *self = Self::start(std::mem::take(&mut self.token), self.choice, self.importer, table);
+        let (table, spans) = (Arc::clone(self.values.table()), self.spans.take());
+        *self = Self::start(
+            std::mem::take(&mut self.token),
+            self.choice,
+            self.importer,
+            table,
+            spans,
+        );
     }
 
     /// Marks the instance after a panic: nothing that the scene holds may be trusted.
     pub fn fail(&mut self) {
         self.phase = Phase::Failed;
         self.stale = true;
-    }
-
-    /// Value behind `reference`.
-    ///
-    /// # Errors
-    /// Unknown reference, other type, or an output before initialisation.
-    pub fn get(&mut self, reference: u32, access: Access) -> Result<Value> {
-        if reference == TIME_REFERENCE && access == Access::Real {
-            return Ok(Value::Real(self.clock.now));
-        }
-        let position = self.position(reference, access)?;
-        if computed(&self.values.table().rows()[position]) {
-            match self.phase {
-                Phase::Instantiated => {
-                    return Err(Error::call(
-                        format!("{} is not computed yet", self.values.table().rows()[position].name),
-                        "Enter initialization mode first.",
-                    ));
-                }
-                Phase::Initialization => self.build()?,
-                _ => {}
-            }
-        }
-        Ok(self.values.as_slice()[position])
-    }
-
-    /// Stores all values or, if one of them is refused, none.
-    ///
-    /// # Errors
-    /// Unknown reference, other type, not to be set in this phase or at all, not finite, out of range.
-    pub fn set(&mut self, references: &[u32], access: Access, value: impl Fn(usize) -> Value) -> Result<()> {
-        for (index, reference) in references.iter().enumerate() {
-            let position = self.position(*reference, access)?;
-            let row = &self.values.table().rows()[position];
-            self.check_settable(row)?;
-            row.check(value(index))?;
-        }
-        for (index, reference) in references.iter().enumerate() {
-            let position = self.position(*reference, access)?;
-            self.values.set(position, value(index))?;
-        }
-        self.stale |= self.phase == Phase::Initialization && !references.is_empty();
-        Ok(())
-    }
-
-    fn check_settable(&self, row: &Variable) -> Result<()> {
-        let before = matches!(self.phase, Phase::Instantiated | Phase::Initialization);
-        let running = matches!(self.phase, Phase::Event | Phase::Step);
-        let remedy = match row.causality {
-            Causality::Parameter if before => return Ok(()),
-            Causality::Input if before || running => return Ok(()),
-            Causality::Parameter => "Parameters are frozen when initialization ends: reset, then set it.",
-            Causality::Input => "Inputs may be set until the simulation is terminated.",
-            Causality::Output | Causality::CalculatedParameter => "The scene computes it: read it only.",
-        };
-        Err(Error::call(
-            format!("{} cannot be set in the phase {}", row.name, self.phase.name()),
-            remedy,
-        ))
-    }
-
-    fn position(&self, reference: u32, access: Access) -> Result<usize> {
-        let rows = self.values.table().rows();
-        let position = (reference as usize).wrapping_sub(1);
-        let Some(row) = rows.get(position) else {
-            let what = match reference {
-                TIME_REFERENCE => "value reference 0 is the time, a real that only steps change".into(),
-                _ => format!("value reference {reference} is unknown, there are 0 to {}", rows.len()),
-            };
-            return Err(Error::call(
-                what,
-                "Take the value references from modelDescription.xml.",
-            ));
-        };
-        if access.fits(&row.kind) {
-            return Ok(position);
-        }
-        let kind = match row.kind {
-            Kind::Real(_) => "real (Real, Float64)",
-            Kind::Integer { .. } => "32-bit integer (Integer, Int32)",
-            Kind::Long { .. } => "64-bit integer (Integer, Int64)",
-            Kind::Enumeration { .. } => "enumeration (Integer, Int64)",
-        };
-        Err(Error::call(
-            format!("{} (value reference {reference}) is of type {kind}", row.name),
-            "Call the function of this type.",
-        ))
     }
 
     fn build(&mut self) -> Result<()> {
@@ -422,8 +331,4 @@ impl<S: Scene> Instance<S> {
         }
         Ok(())
     }
-}
-
-fn computed(row: &Variable) -> bool {
-    matches!(row.causality, Causality::Output | Causality::CalculatedParameter)
 }

@@ -10,6 +10,8 @@
 //! Not here: physics. A new scene needs nothing from this folder but the macro.
 
 pub mod abi;
+pub mod arrays;
+pub mod derivatives;
 pub mod instance;
 pub mod life_cycle;
 pub mod snapshot;
@@ -23,6 +25,10 @@ pub mod documentation;
 pub mod icon;
 #[cfg(feature = "command-line")]
 pub mod model_description;
+#[cfg(feature = "command-line")]
+pub mod reference;
+#[cfg(feature = "command-line")]
+pub mod replay;
 #[cfg(feature = "command-line")]
 pub mod terminals;
 #[cfg(feature = "command-line")]

@@ -1,18 +1,22 @@
 //! Variable table in, `terminalsAndIcons/terminalsAndIcons.xml` of FMI 3.0 out: what belongs to one mechanical flange.
 //!
-//! Variables that share the prefix of an input (`base.` of `base.displacement`) make one terminal, named by the prefix.
+//! An input that comes with its rate is one side of a flange: a motion, a torque. The variables that share its prefix (`base.`
+//! of `base.displacement`) make one terminal, named by the prefix; without a prefix, such as `torque`, its name is the
+//! terminal's.
 
 use std::collections::BTreeSet;
 
-use super::xml;
-use crate::scene::{Causality, Variable};
+use super::{derivatives, xml};
+use crate::scene::{Causality, Table, Variable};
 
 /// The file; without inputs it states the icon alone.
 pub fn write(rows: &[Variable]) -> String {
+    let table = Table::new(rows.to_vec());
     let flanges: BTreeSet<&str> = rows
         .iter()
-        .filter(|row| row.causality == Causality::Input)
-        .filter_map(|row| Some(row.name.split_once('.')?.0))
+        .enumerate()
+        .filter(|(position, row)| row.causality == Causality::Input && derivatives::of(&table, *position).is_some())
+        .map(|(_, row)| split(&row.name).0)
         .collect();
     xml::document(|xml| {
         xml::element(
@@ -51,11 +55,8 @@ fn terminal(xml: &mut xml::Xml, flange: &str, rows: &[Variable]) -> std::io::Res
     xml::element(xml, "Terminal", &about, |xml| {
         for row in rows {
             let signal = matches!(row.causality, Causality::Input | Causality::Output);
-            let member = row
-                .name
-                .split_once('.')
-                .filter(|(prefix, _)| signal && *prefix == flange);
-            if let Some((_, member)) = member {
+            let (prefix, member) = split(&row.name);
+            if signal && prefix == flange {
                 let attributes = vec![
                     ("variableName", row.name.clone()),
                     ("memberName", member.into()),
@@ -66,4 +67,43 @@ fn terminal(xml: &mut xml::Xml, flange: &str, rows: &[Variable]) -> std::io::Res
         }
         Ok(())
     })
+}
+
+/// Terminal and member of it that a variable would be.
+fn split(name: &str) -> (&str, &str) {
+    name.split_once('.').unwrap_or((name, name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Unit;
+
+    #[test]
+    fn flanges_are_those_of_the_inputs() {
+        let input = |name: &str| Variable::input(name, Unit::One, 1.0, "");
+        let output = |name: &str| Variable::output(name, Unit::One, 1.0, "");
+        let text = write(&[
+            input("base.displacement"),
+            input("base.velocity"),
+            input("torque"),
+            input("torque.rate"),
+            input("measure.mark"),
+            output("base.reaction_force"),
+            output("energy.lost"),
+        ]);
+        assert_eq!(text.matches("<Terminal ").count(), 2);
+        for (variable, member) in [
+            ("base.displacement", "displacement"),
+            ("base.reaction_force", "reaction_force"),
+            ("torque", "torque"),
+            ("torque.rate", "rate"),
+        ] {
+            let member = format!(r#"variableName="{variable}" memberName="{member}""#);
+            assert!(text.contains(&member), "{text}");
+        }
+        assert!(
+            !text.contains("energy") && !text.contains("measure") && !write(&[output("torque")]).contains("Terminals>")
+        );
+    }
 }

@@ -5,21 +5,39 @@
 //!
 //! ```text
 //! jostle:packing:molecular-dynamics:input:disks=60:1f0c3a5be2d49768
+//! jostle:packing:molecular-dynamics:input:disks=60:arrays:1f0c3a5be2d49768    what has an index is one array
 //! ```
 
 use crate::error::{Error, Result};
 use crate::scene::{Card, Choice, Scene, Variable};
 
-/// Token of a scene bundled with `choice`.
-pub fn write(card: &Card, choice: Choice, rows: &[Variable]) -> String {
-    format!("{}{}:{:016x}", prefix(card), choice.disks, fingerprint(rows))
+/// What a token stands for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contents {
+    /// What was decided when the FMU was bundled.
+    pub choice: Choice,
+    /// Variables for this choice.
+    pub rows: Vec<Variable>,
+    /// Computed variables with an index are arrays (FMI 3.0), see [`super::arrays`].
+    pub arrays: bool,
 }
 
-/// Choice and rows that `token` stands for.
+/// Token of a scene bundled with `choice`, all variables scalar.
+pub fn write(card: &Card, choice: Choice, rows: &[Variable]) -> String {
+    compose(card, choice, rows, false)
+}
+
+/// Token of a scene bundled with `choice`, with arrays if `arrays` says so.
+pub fn compose(card: &Card, choice: Choice, rows: &[Variable], arrays: bool) -> String {
+    let layout = if arrays { ":arrays" } else { "" };
+    format!("{}{}{layout}:{:016x}", prefix(card), choice.disks, fingerprint(rows))
+}
+
+/// What `token` stands for.
 ///
 /// # Errors
 /// The token is of another scene or of a library with other variables.
-pub fn read<S: Scene>(token: &str) -> Result<(Choice, Vec<Variable>)> {
+pub fn read<S: Scene>(token: &str) -> Result<Contents> {
     let card = S::card();
     let refused = |expected: String| {
         Error::call(
@@ -29,17 +47,18 @@ pub fn read<S: Scene>(token: &str) -> Result<(Choice, Vec<Variable>)> {
     };
     let shape = || format!("{}N:...", prefix(&card));
     let rest = token.strip_prefix(&prefix(&card)).ok_or_else(|| refused(shape()))?;
-    let disks = rest.split(':').next().and_then(|disks| disks.parse().ok());
+    let mut parts = rest.split(':');
+    let disks = parts.next().and_then(|disks| disks.parse().ok());
     let disks = disks
         .filter(|disks| card.disks.contains(disks))
         .ok_or_else(|| refused(shape()))?;
-    let choice = Choice { disks };
+    let (choice, arrays) = (Choice { disks }, parts.next() == Some("arrays"));
     let rows = S::variables(choice);
-    let expected = write(&card, choice, &rows);
+    let expected = compose(&card, choice, &rows, arrays);
     if token != expected {
         return Err(refused(expected));
     }
-    Ok((choice, rows))
+    Ok(Contents { choice, rows, arrays })
 }
 
 fn prefix(card: &Card) -> String {

@@ -41,3 +41,8 @@ pub fn element(
         .write_inner_content(content)?;
     Ok(())
 }
+
+/// Shortest text that reads back as the same bits.
+pub fn number(value: f64) -> String {
+    format!("{value:?}")
+}

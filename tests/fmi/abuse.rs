@@ -55,7 +55,7 @@ fn wrong_pointers_lengths_references_and_types_are_refused() {
             Error,
             "misaligned"
         );
-        for unknown in [1000, u32::MAX, reference("seed"), reference("steps")] {
+        for unknown in [1000, u32::MAX, reference("seed"), reference("start.pattern")] {
             assert_eq!(fmi3GetFloat64(pointer, &unknown, 1, &mut value, 1), Error, "{unknown}");
         }
         assert_eq!(fmi3GetInt32(pointer, &mass, 1, many.as_mut_ptr(), 1), Error);

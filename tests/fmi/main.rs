@@ -2,9 +2,11 @@
 #![allow(unsafe_code, clippy::undocumented_unsafe_blocks, clippy::unwrap_used)]
 
 mod abuse;
+mod arrays_and_derivatives;
 mod bundle;
 mod client;
 mod events;
 mod life_cycle;
 mod many;
+mod state_table;
 mod states;

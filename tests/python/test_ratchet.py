@@ -104,7 +104,7 @@ def test_points_are_kept_as_they_are_and_missing_ones_are_told(tmp_path: Path) -
     assert again == points
     assert chosen(again, {first: 2})[first].velocities == (4.123, -0.5)
     with pytest.raises(LabError, match="ratchet-page"):
-        chosen(again, {first: 4})
+        chosen(again, {first: 4, Case(3.0, 0.1, 26.0, 20): 1})
 
 
 def test_page_is_what_the_kept_data_say() -> None:
@@ -133,7 +133,7 @@ def test_every_study_has_a_maker() -> None:
 def test_small_figure_from_end_to_end(laboratory: Laboratory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Fig. 6 with few points and short runs: the signs of F, and the symmetric tooth, come out."""
     monkeypatch.setattr(shape, "ASYMMETRIES", (0.05, 0.1, 0.15, 0.25, 0.3, 0.35, 0.5, 0.5))
-    monkeypatch.setattr(shape, "tooth", lambda h, a: Case(h, a, 25.0, 29, seconds=10.0))
+    monkeypatch.setattr(shape, "tooth", lambda h, a: Case(h, a, 25.0, 69, 24, 6.0))
     folder = tmp_path / "results"
     data, picture, statements = make_figure("F6", laboratory, folder, quick=True, seeds=3)
     assert len(data.read_text().splitlines()) == 1 + 3 * 4

@@ -29,6 +29,7 @@ seeds = 3
 [set]
 tooth.height = 3e-3
 "tooth.asymmetry" = 0.1
+tooth.count = 12.0
 [grid]
 "drive.frequency" = {from = 15.0, to = 30.0, count = 4}
 disks = [10, 20]
@@ -54,6 +55,7 @@ def test_a_grid_is_every_combination_with_every_seed(tmp_path: Path) -> None:
     assert {run.disks for run in runs} == {10, 20}
     assert sorted({dict(run.settings)["drive.frequency"] for run in runs}) == [15.0, 20.0, 25.0, 30.0]
     assert all(dict(run.settings)["tooth.height"] == 3e-3 for run in runs)
+    assert all("tooth.count=12" in run.arguments() for run in runs)  # an integer to the program
     narrowed = read_grid(path, {"set": {"drive.frequency": 20.0}, "seeds": 1}).runs()
     assert [run.disks for run in narrowed] == [10, 20]
     assert all(dict(run.settings) | {"drive.frequency": 20.0, "seed": 1} == dict(run.settings) for run in narrowed)
@@ -63,7 +65,7 @@ def test_a_grid_is_every_combination_with_every_seed(tmp_path: Path) -> None:
     ("table", "message"),
     [
         ({"scene": "ratchet"}, "seconds is missing"),
-        ({"scene": "rachet", "seconds": 1}, "none of packing, wedge, ratchet"),
+        ({"scene": "rachet", "seconds": 1}, "none of packing, wedge, ratchet, three_disk"),
         ({"scene": "ratchet", "seconds": -1}, "not a time above 0"),
         ({"scene": "ratchet", "seconds": float("nan")}, "not a finite number"),
         ({"scene": "ratchet", "seconds": 1, "speed": 2}, "speed is not known"),
@@ -123,7 +125,7 @@ def test_a_broken_part_is_named(tmp_path: Path) -> None:
 
 
 def command(folder: Path, *others: str) -> list[str]:
-    words = [sys.executable, "-m", "jostle_lab", "sweep", "--scene", "ratchet", "--seconds", "10", "--seeds", "40"]
+    words = [sys.executable, "-m", "jostle_lab", "sweep", "--scene", "ratchet", "--seconds", "30", "--seeds", "40"]
     words += ["--grid", "disks=10,20", "--set", "tooth.height=3e-3", "--results", str(folder), "--no-progress"]
     return [*words, "--program", str(PATH), "--processes", "1", *others]
 
@@ -149,7 +151,7 @@ def test_killed_in_the_middle_and_resumed(tmp_path: Path, program: Program) -> N
     assert {key: after[key] for key in before} == before
     assert sorted({row["seed"] for row in after.values()}) == list(range(1, 41))
     whole = sweep(tmp_path / "whole", program).run(
-        Grid("ratchet", 10.0, seeds=tuple(range(1, 41)), fixed={"tooth.height": 3e-3}, axes={"disks": (10,)}).runs()
+        Grid("ratchet", 30.0, seeds=tuple(range(1, 6)), fixed={"tooth.height": 3e-3}, axes={"disks": (10,)}).runs()
     )
     for row in whole.values():
         assert row["transport_velocity"] == after[row["key"]]["transport_velocity"]

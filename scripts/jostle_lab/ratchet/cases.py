@@ -77,7 +77,11 @@ class Case:
             "seed": seed,
         }
         whole = self.warm_up + self.seconds
-        return Run("ratchet", "event-driven", whole, whole, tuple(settings.items()), self.disks)
+        return Run("ratchet", "event-driven", whole, whole, tuple(settings.items()), disks=self.disks)
+
+
+AT_REST = 0.05
+"""A point whose runs are all slower [cm/s] is at rest, which scatters less."""
 
 
 @dataclass(frozen=True)
@@ -112,18 +116,21 @@ class Point:
             variance = ((self.runs - 1) * variance + PRIOR_FREEDOM * self.prior) / (self.runs - 1 + PRIOR_FREEDOM)
         return math.sqrt(variance)
 
+    @property
+    def at_rest(self) -> bool:
+        """Whether all runs are slower than `AT_REST`."""
+        return bool(np.all(np.abs(self.numbers) < AT_REST))
+
     def sign(self, significance: float = 3.0) -> int:
-        """1 or -1 if the mean is that many standard errors from zero, else 0."""
+        """1 or -1 if it moves and the mean is that many standard errors from zero, else 0."""
         mean, error = self.estimate.mean, self.estimate.error
-        return 0 if abs(mean) <= significance * error else int(math.copysign(1, mean))
+        return 0 if self.at_rest or abs(mean) <= significance * error else int(math.copysign(1, mean))
 
 
 FEW = 5
 """Runs from which on a point stands alone."""
 PRIOR_FREEDOM = 4.0
 """Degrees of freedom that the variance of the others counts for."""
-AT_REST = 0.05
-"""A point whose runs are all slower [cm/s] is at rest, which scatters less."""
 
 
 def lean_on_each_other(points: "Points") -> dict[Case, Point]:
@@ -134,11 +141,11 @@ def lean_on_each_other(points: "Points") -> dict[Case, Point]:
     """
     kinds: dict[tuple[float, ...], list[float]] = {}
     for case, point in points.items():
-        if not _at_rest(point):
+        if not point.at_rest:
             kinds.setdefault(_kind(case), []).append(float(point.numbers.var(ddof=1)))
     return {
         case: replace(point, prior=float(np.median(kinds[_kind(case)])))
-        if point.runs < FEW and not _at_rest(point)
+        if point.runs < FEW and not point.at_rest
         else point
         for case, point in points.items()
     }
@@ -146,10 +153,6 @@ def lean_on_each_other(points: "Points") -> dict[Case, Point]:
 
 def _kind(case: Case) -> tuple[float, ...]:
     return case.disks, case.teeth, case.seconds
-
-
-def _at_rest(point: Point) -> bool:
-    return bool(np.all(np.abs(point.numbers) < AT_REST))
 
 
 Points = Mapping[Case, Point]

@@ -49,7 +49,8 @@ def field_run(case: Case, seed: int) -> FieldRun:
     """The fields of one seed."""
     run = case.run(seed)
     settings = tuple(pair for pair in run.settings if pair[0] != "measure.start")
-    return FieldRun(run.scene, run.engine, case.seconds, case.seconds, settings, run.disks, case.warm_up)
+    seconds = case.seconds
+    return FieldRun(run.scene, run.engine, seconds, seconds, settings, disks=run.disks, warm_up=case.warm_up)
 
 
 @dataclass(frozen=True)

@@ -115,7 +115,7 @@ def tables(points: Points, case: Case) -> list[Table]:
     for warm_up in WARM_UPS:
         estimate = points[replace(case, warm_up=warm_up)].estimate
         rows.append([f"averaged from {warm_up:g} s on", str(estimate), f"{joint(estimate, value, error):+.1f}"])
-    title = (
-        f"Velocity [cm/s] of {PLACES[case]} with one thing changed, 30 runs each (default: 100); F: {value} +- {error}"
-    )
+    counts = [p.runs for c, p in points.items() if c != case]
+    each = f"{min(counts)} to {max(counts)} runs each (default: {points[case].runs})"
+    title = f"Velocity [cm/s] of {PLACES[case]} with one thing changed, {each}; F: {value} +- {error}"
     return [Table(title, ["changed", "ours", "joint errors from F"], rows)]

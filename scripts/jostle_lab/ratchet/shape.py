@@ -16,7 +16,7 @@ MAP_ASYMMETRIES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.45)
 MONOTONE = 0.01
 """p-value from which on a curve counts as monotone."""
 NOTES = (
-    "n = 1 (69 disks), 25 Hz, 24 teeth, 50 s after 1 s; three seeds a point where F has two runs",
+    "n = 1 (69 disks), 25 Hz, 24 teeth, 50 s after 1 s; three seeds a point where F has two runs, 12 at a = 0.5",
     "error bars: standard error over seeds",
 )
 
@@ -36,7 +36,8 @@ def asymmetry_plan(quick: bool) -> Plan:
     chosen = ASYMMETRIES[::2] if quick else ASYMMETRIES
     heights = (3.0, 5.0, 9.0) if quick else HEIGHTS
     tips = {} if quick else {_with_tip(a, tip): 4 for a in STEEP for tip in (*TIPS, None)}
-    return {**tips, **{tooth(h, a): 2 if quick else 3 for h in heights for a in chosen}}
+    runs = {a: 2 if quick else 12 if a == 0.5 else 3 for a in chosen}
+    return {**tips, **{tooth(h, a): runs[a] for h in heights for a in chosen}}
 
 
 def _by_height(points: Points) -> dict[float, Curve]:

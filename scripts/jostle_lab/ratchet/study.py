@@ -101,8 +101,9 @@ class Curve:
         return Curve(tuple(x for x, _ in kept), tuple(p for _, p in kept))
 
     def crossings(self) -> list[Estimate]:
-        """Sign changes for certain."""
-        return zero_crossings(self.x, self.estimates)
+        """Sign changes for certain, points at rest left out."""
+        moving = [(x, p.estimate) for x, p in zip(self.x, self.points, strict=True) if not p.at_rest]
+        return zero_crossings([x for x, _ in moving], [e for _, e in moving])
 
     def monotone(self, rising: bool) -> float:
         """How well a monotone curve fits: p-value of chi^2 against the best one."""

@@ -24,6 +24,7 @@ def sweep(
     file: Annotated[Path | None, typer.Argument(help="Grid in TOML; see below. Options go over what it says.")] = None,
     scene: Annotated[str | None, typer.Option(help="Scene, such as ratchet.")] = None,
     engine: Annotated[str | None, typer.Option(help="Engine, if not the scene's first.")] = None,
+    drive: Annotated[str | None, typer.Option(help="What moves the base, if not a sine.")] = None,
     seconds: Annotated[float | None, typer.Option(help="Simulated seconds of each run.")] = None,
     seeds: Annotated[int | None, typer.Option(min=1, help="Seeds of each combination, from 1 on.")] = None,
     fixed: Annotated[
@@ -44,10 +45,10 @@ def sweep(
 ) -> None:
     """Run every combination of a grid of parameters on Dask, into Parquet; kill it and repeat it as you like.
 
-    The file: scene, engine, seconds, seeds (a number or a list), a table [set] and a table [grid] of lists or
+    The file: scene, engine, drive, seconds, seeds (a number or a list), a table [set] and a table [grid] of lists or
     {from = , to = , count = }. A failed run is kept with its error. Read the results with any reader of Parquet.
     """
-    changes: dict[str, Any] = {"scene": scene, "engine": engine, "seconds": seconds, "seeds": seeds}
+    changes: dict[str, Any] = {"scene": scene, "engine": engine, "drive": drive, "seconds": seconds, "seeds": seeds}
     changes["set"] = dict(_assignment("--set", text) for text in fixed or [])
     changes["grid"] = dict(_axis(text) for text in axes or [])
     grid = read_grid(file, changes) if file is not None else make_grid({}, changes, "sweep")

@@ -133,14 +133,16 @@ class Sweep:
             yield self._row(future, run)
 
     def _row(self, future: Any, run: Run) -> Row:
-        """Row of a future that is done. A worker that dies fails its run; a wrong program ends the sweep."""
+        """Row of a future that is done. A run whose workers die fails; a wrong program or a lost scheduler ends all."""
         if future.status == "finished":
             row: Row = future.result()
             return row
-        error = future.exception() if future.status == "error" else f"the scheduler says: {future.status}"
+        if future.status != "error":
+            raise LabError(f"The scheduler gave up a run ({future.status}). Is it still there? Repeat to go on.")
+        error = future.exception()
         if isinstance(error, LabError):
             raise error
-        return failure(self.program, run, f"{type(error).__name__}: {error}" if isinstance(error, Exception) else error)
+        return failure(self.program, run, f"{type(error).__name__}: {error}")
 
 
 class _Parts:

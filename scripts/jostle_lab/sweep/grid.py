@@ -1,7 +1,7 @@
 """A grid of parameters, from a TOML file or from options, as runs.
 
     scene = "ratchet"
-    engine = "event-driven"
+    engine = "event-driven"                     # and drive; the scene's own and sine unless named
     seconds = 31.0
     seeds = 7                                   # 1 to 7, or a list
     [set]
@@ -26,9 +26,14 @@ from typing import Any
 from jostle_lab.errors import LabError
 from jostle_lab.thesis.runs import Run
 
-ENGINES = {"packing": "molecular-dynamics", "wedge": "map", "ratchet": "event-driven"}
+ENGINES = {
+    "packing": "molecular-dynamics",
+    "wedge": "map",
+    "ratchet": "event-driven",
+    "three_disk": "molecular-dynamics",
+}
 """Engine of a scene unless another is named."""
-KEYS = ("scene", "engine", "seconds", "seeds", "set", "grid")
+KEYS = ("scene", "engine", "drive", "seconds", "seeds", "set", "grid")
 RANGE = {"from", "to", "count"}
 MOST_RUNS = 1_000_000
 
@@ -41,6 +46,7 @@ class Grid:
     seconds: float
     engine: str = ""
     """Empty: the scene's own of `ENGINES`."""
+    drive: str = "sine"
     seeds: tuple[int, ...] = (1,)
     fixed: Mapping[str, float] = field(default_factory=dict)
     axes: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
@@ -75,8 +81,11 @@ class Grid:
         if disks is not None and (disks != int(disks) or disks < 1):
             raise LabError(f"disks = {disks:g} is not a number of disks. Give whole numbers above 0.")
         engine = self.engine or ENGINES[self.scene]
-        chosen = (*settings.items(), ("seed", seed))
-        return Run(self.scene, engine, self.seconds, self.seconds, chosen, None if disks is None else int(disks))
+        # A whole number without a point, since a parameter may be an integer; a real one takes both.
+        plain = {name: int(value) if value == int(value) else value for name, value in settings.items()}
+        chosen = (*plain.items(), ("seed", seed))
+        count = None if disks is None else int(disks)
+        return Run(self.scene, engine, self.seconds, self.seconds, chosen, self.drive, count)
 
 
 def read_grid(path: Path, changes: Mapping[str, Any] | None = None) -> Grid:
@@ -109,6 +118,7 @@ def make_grid(table: Mapping[str, Any], changes: Mapping[str, Any], where: str) 
         scene=str(top["scene"]),
         seconds=_number("seconds", top["seconds"], where),
         engine=str(top.get("engine", "")),
+        drive=str(top.get("drive", "sine")),
         seeds=_seeds(top.get("seeds", 1), where),
         fixed={name: _number(name, value, where) for name, value in fixed.items()},
         axes={name: _axis(name, value, where) for name, value in axes.items()},

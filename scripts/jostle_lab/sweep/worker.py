@@ -48,6 +48,7 @@ def identity(program: Program, run: Run) -> Row:
         "program": program.version,
         "scene": run.scene,
         "engine": run.engine,
+        "drive": run.drive,
         "disks": run.disks,
         "seconds": float(run.seconds),
         "seed": seed,

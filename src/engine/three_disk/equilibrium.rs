@@ -44,7 +44,7 @@ pub fn equilibrium(bench: &Bench, supports: &[SupportMotion; 2]) -> Result<[f64;
         let step = [(xy * fy - yy * fx) / determinant, (yx * fx - xx * fy) / determinant];
         place = [place[0] + step[0], place[1] + step[1]];
         let size = place[0].abs().max(place[1].abs());
-        if !(size < 0.5 * bench.radius) {
+        if size.is_nan() || size >= 0.5 * bench.radius {
             return Err(NoEquilibrium);
         }
         if step[0].abs().max(step[1].abs()) <= 4.0 * f64::EPSILON * size {

@@ -3,18 +3,18 @@
 use std::any::Any;
 use std::cell::UnsafeCell;
 use std::collections::HashMap;
-use std::ffi::c_void;
+use std::ffi::{c_char, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::null_mut;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use super::logger::{Category, Logger};
 use super::memory;
+use super::states::Saved;
 use crate::error::{Error, Result};
-use crate::fmi::instance::{Access, Instance};
+use crate::fmi::instance::Instance;
 use crate::fmi::life_cycle::Version;
-use crate::fmi::snapshot::Snapshot;
-use crate::scene::{Reached, Scene, Value};
+use crate::scene::{Reached, Scene};
 
 /// `fmi2Component`, `fmi3Instance`, `fmi2FMUstate` or `fmi3FMUState`: opaque to the importer.
 pub type Opaque = *mut c_void;
@@ -59,12 +59,8 @@ pub struct Inner<S: Scene> {
     /// Communication point and step size that were refused last.
     refused: Option<(f64, f64)>,
     version: Version,
-    states: HashMap<usize, Saved<S>>,
-}
-
-struct Saved<S: Scene> {
-    snapshot: Snapshot<S::State>,
-    bytes: Option<Vec<u8>>,
+    /// What it saved, under the numbers that the importer holds.
+    pub(super) states: HashMap<usize, Saved<S>>,
 }
 
 /// Makes an instance. Null, after a log message, when `make` refuses or panics.
@@ -244,116 +240,61 @@ impl<S: Scene> Inner<S> {
             &format!("{function}: {phase} at t = {time} s"),
         );
     }
+}
 
-    /// Saves the state under `previous`, if that is one of ours, or under a new number.
-    ///
-    /// # Errors
-    /// The instance has failed.
-    pub fn save(&mut self, previous: Opaque) -> Result<Opaque> {
-        let snapshot = self.instance.save()?;
-        let number = match previous.addr() {
-            known if self.states.contains_key(&known) => known,
-            _ => next_number(),
-        };
-        Ok(self.keep(number, snapshot))
+/// A call that only moves the instance along its life cycle.
+///
+/// # Safety
+/// As for [`enter`].
+pub unsafe fn transition<S: Scene>(
+    pointer: Opaque,
+    version: Version,
+    function: &str,
+    change: impl FnOnce(&mut Instance<S>) -> Result<()>,
+) -> Status {
+    // SAFETY: passed on.
+    unsafe {
+        enter::<S>(pointer, version, function, |inner| {
+            change(&mut inner.instance)?;
+            inner.tell(function);
+            Ok(())
+        })
     }
+}
 
-    fn keep(&mut self, number: usize, snapshot: Snapshot<S::State>) -> Opaque {
-        self.states.insert(number, Saved { snapshot, bytes: None });
-        std::ptr::without_provenance_mut(number)
+/// `fmi2Reset`, `fmi3Reset`.
+///
+/// # Safety
+/// As for [`enter`].
+pub unsafe fn reset<S: Scene>(pointer: Opaque, version: Version, function: &str) -> Status {
+    // SAFETY: passed on.
+    unsafe {
+        enter::<S>(pointer, version, function, |inner| {
+            inner.reset();
+            inner.tell(function);
+            Ok(())
+        })
     }
+}
 
-    /// Goes back to a saved state.
-    ///
-    /// # Errors
-    /// Unknown state, or one that does not fit.
-    pub fn restore(&mut self, state: Opaque) -> Result<()> {
-        let saved = self.states.get(&state.addr()).ok_or_else(unknown_state)?;
-        self.instance.restore(&saved.snapshot)
-    }
-
-    /// Forgets a saved state. Null is ignored, as both standards ask.
-    ///
-    /// # Errors
-    /// Unknown state.
-    pub fn forget(&mut self, state: Opaque) -> Result<()> {
-        match self.states.remove(&state.addr()) {
-            None if !state.is_null() => Err(unknown_state()),
-            _ => Ok(()),
-        }
-    }
-
-    /// Bytes of a saved state; written once, since importers ask for the size first.
-    ///
-    /// # Errors
-    /// Unknown state.
-    pub fn bytes(&mut self, state: Opaque) -> Result<&[u8]> {
-        let saved = self.states.get_mut(&state.addr()).ok_or_else(unknown_state)?;
-        if saved.bytes.is_none() {
-            saved.bytes = Some(saved.snapshot.to_bytes(self.instance.token())?);
-        }
-        Ok(saved.bytes.as_deref().unwrap_or_default())
-    }
-
-    /// Makes a saved state of bytes.
-    ///
-    /// # Errors
-    /// Damaged or foreign bytes.
-    pub fn read_bytes(&mut self, bytes: &[u8]) -> Result<Opaque> {
-        let snapshot = self.instance.read_snapshot(bytes)?;
-        Ok(self.keep(next_number(), snapshot))
-    }
-
-    /// Reads variables into the importer's array.
-    ///
-    /// # Safety
-    /// `references` and `values` are null or have `count` elements.
-    ///
-    /// # Errors
-    /// Bad pointers, unknown references, other types, not computed yet.
-    pub unsafe fn get<T>(
-        &mut self,
-        (references, count): (*const u32, usize),
-        values: *mut T,
-        access: Access,
-        convert: impl Fn(Value) -> Option<T>,
-    ) -> Result<()> {
-        // SAFETY: by the caller's promise.
-        let references = unsafe { memory::slice(references, count, "the array of value references") }?;
-        // SAFETY: by the caller's promise.
-        let mut values = unsafe { memory::Output::new(values, count, "the array of values") }?;
-        for (index, reference) in references.iter().enumerate() {
-            let value = self.instance.get(*reference, access)?;
-            let value = convert(value).ok_or_else(|| {
-                Error::call(
-                    format!("value reference {reference} holds {value:?}, which does not fit this type"),
-                    "Read it through FMI 3.0.",
-                )
-            })?;
-            values.write(index, value);
-        }
-        Ok(())
-    }
-
-    /// Sets variables from the importer's array: all, or none if one is refused.
-    ///
-    /// # Safety
-    /// `references` and `values` are null or have `count` elements.
-    ///
-    /// # Errors
-    /// Bad pointers, unknown references, other types, values out of range, wrong phase.
-    pub unsafe fn set<T: Copy>(
-        &mut self,
-        (references, count): (*const u32, usize),
-        values: *const T,
-        access: Access,
-        convert: impl Fn(T) -> Value,
-    ) -> Result<()> {
-        // SAFETY: by the caller's promise.
-        let references = unsafe { memory::slice(references, count, "the array of value references") }?;
-        // SAFETY: by the caller's promise.
-        let values = unsafe { memory::slice(values, count, "the array of values") }?;
-        self.instance.set(references, access, |index| convert(values[index]))
+/// `fmi2SetDebugLogging`, `fmi3SetDebugLogging`.
+///
+/// # Safety
+/// As for [`enter`]; `categories` is null or has `count` strings.
+pub unsafe fn set_debug_logging<S: Scene>(
+    pointer: Opaque,
+    version: Version,
+    function: &str,
+    on: bool,
+    (categories, count): (*const *const c_char, usize),
+) -> Status {
+    // SAFETY: passed on.
+    unsafe {
+        enter::<S>(pointer, version, function, |inner| {
+            let pointers = memory::slice(categories, count, "the array of categories")?;
+            let names: Result<Vec<_>> = pointers.iter().map(|name| memory::text(*name, "a category")).collect();
+            inner.logger.switch(on, &names?)
+        })
     }
 }
 
@@ -385,19 +326,6 @@ pub unsafe fn no_such_type<S: Scene>(pointer: Opaque, version: Version, function
             )),
         })
     }
-}
-
-/// Numbers are never used twice in a process, so that no state of one instance passes for one of another.
-fn next_number() -> usize {
-    static NEXT: AtomicUsize = AtomicUsize::new(1);
-    NEXT.fetch_add(1, Ordering::Relaxed)
-}
-
-fn unknown_state() -> Error {
-    Error::call(
-        "this FMU state is not one of this instance: never saved here, or freed",
-        "Pass a state that this instance saved or deserialized and did not free.",
-    )
 }
 
 fn describe(panic: &(dyn Any + Send)) -> String {

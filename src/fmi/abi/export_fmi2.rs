@@ -16,7 +16,8 @@ macro_rules! export_fmi2 {
             use $crate::fmi::Version::Two;
             use $crate::fmi::abi::common::{self, Opaque, Status};
             use $crate::fmi::abi::fmi2::{self, CallbackFunctions, NO_DERIVATIVES, NO_MODEL_EXCHANGE, SYNCHRONOUS};
-            use $crate::fmi::abi::states;
+            use $crate::fmi::abi::{states, values};
+            use $crate::fmi::instance::Access::AnyInteger;
 
             $crate::__fmi_functions! {
                 fn fmi2GetTypesPlatform() -> *const c_char =
@@ -26,7 +27,9 @@ macro_rules! export_fmi2 {
                 fn fmi2SetDebugLogging(
                     pointer: Opaque, logging_on: c_int, count: usize, categories: *const *const c_char,
                 ) -> Status =
-                    fmi2::set_debug_logging::<$scene>(pointer, logging_on, count, categories);
+                    common::set_debug_logging::<$scene>(
+                        pointer, Two, "fmi2SetDebugLogging", logging_on != 0, (categories, count)
+                    );
                 fn fmi2Instantiate(
                     name: *const c_char, kind: c_int, guid: *const c_char, fmu_resource_location: *const c_char,
                     functions: *const CallbackFunctions, visible: c_int, logging_on: c_int,
@@ -42,21 +45,21 @@ macro_rules! export_fmi2 {
                         pointer, (tolerance_defined != 0).then_some(tolerance), start, stop_defined, stop
                     );
                 fn fmi2EnterInitializationMode(pointer: Opaque) -> Status =
-                    fmi2::transition::<$scene>(
-                        pointer, "fmi2EnterInitializationMode", Instance::enter_initialization
-                    );
+                    common::transition::<$scene>(pointer, Two, "fmi2EnterInitializationMode", Instance::enter_initialization);
                 fn fmi2ExitInitializationMode(pointer: Opaque) -> Status =
-                    fmi2::transition::<$scene>(pointer, "fmi2ExitInitializationMode", Instance::exit_initialization);
+                    common::transition::<$scene>(pointer, Two, "fmi2ExitInitializationMode", Instance::exit_initialization);
                 fn fmi2Terminate(pointer: Opaque) -> Status =
-                    fmi2::transition::<$scene>(pointer, "fmi2Terminate", Instance::terminate);
+                    common::transition::<$scene>(pointer, Two, "fmi2Terminate", Instance::terminate);
                 fn fmi2Reset(pointer: Opaque) -> Status =
-                    fmi2::reset::<$scene>(pointer);
+                    common::reset::<$scene>(pointer, Two, "fmi2Reset");
                 fn fmi2GetReal(pointer: Opaque, references: *const u32, count: usize, values: *mut f64) -> Status =
-                    fmi2::get_real::<$scene>(pointer, references, count, values);
+                    values::get_real::<$scene>(pointer, Two, "fmi2GetReal", (references, count, values, count));
                 fn fmi2GetInteger(
                     pointer: Opaque, references: *const u32, count: usize, values: *mut c_int,
                 ) -> Status =
-                    fmi2::get_integer::<$scene>(pointer, references, count, values);
+                    values::get_whole::<$scene, _>(
+                        pointer, Two, "fmi2GetInteger", (references, count, values, count), AnyInteger
+                    );
                 fn fmi2GetBoolean(
                     pointer: Opaque, references: *const u32, count: usize, values: *mut c_int,
                 ) -> Status =
@@ -66,11 +69,13 @@ macro_rules! export_fmi2 {
                 ) -> Status =
                     common::no_such_type::<$scene>(pointer, Two, "fmi2GetString", count);
                 fn fmi2SetReal(pointer: Opaque, references: *const u32, count: usize, values: *const f64) -> Status =
-                    fmi2::set_real::<$scene>(pointer, references, count, values);
+                    values::set_real::<$scene>(pointer, Two, "fmi2SetReal", (references, count, values, count));
                 fn fmi2SetInteger(
                     pointer: Opaque, references: *const u32, count: usize, values: *const c_int,
                 ) -> Status =
-                    fmi2::set_integer::<$scene>(pointer, references, count, values);
+                    values::set_whole::<$scene, _>(
+                        pointer, Two, "fmi2SetInteger", (references, count, values, count), AnyInteger
+                    );
                 fn fmi2SetBoolean(
                     pointer: Opaque, references: *const u32, count: usize, values: *const c_int,
                 ) -> Status =
@@ -126,11 +131,15 @@ macro_rules! export_fmi2 {
                     pointer: Opaque, references: *const u32, count: usize, order: *const c_int,
                     values: *const f64,
                 ) -> Status =
-                    fmi2::derivatives::<$scene>(pointer, "fmi2SetRealInputDerivatives", count);
+                    values::set_input_derivatives::<$scene>(
+                        pointer, "fmi2SetRealInputDerivatives", order, (references, values, count)
+                    );
                 fn fmi2GetRealOutputDerivatives(
                     pointer: Opaque, references: *const u32, count: usize, order: *const c_int, values: *mut f64,
                 ) -> Status =
-                    fmi2::derivatives::<$scene>(pointer, "fmi2GetRealOutputDerivatives", count);
+                    values::get_output_derivatives::<$scene>(
+                        pointer, Two, "fmi2GetRealOutputDerivatives", order, (references, count, values, count)
+                    );
                 fn fmi2DoStep(pointer: Opaque, current: f64, step: f64, keep: c_int) -> Status =
                     fmi2::do_step::<$scene>(pointer, current, step);
                 fn fmi2CancelStep(pointer: Opaque) -> Status =

@@ -17,10 +17,11 @@ macro_rules! export_fmi3 {
             use $crate::fmi::abi::common::{self, Opaque, Status};
             use $crate::fmi::abi::fmi3::{
                 self, Boolean, ClockUpdate, Enumeration, IntermediateUpdate, NO_CLOCKS, NO_CONFIGURATION,
-                NO_DEPENDENCIES, NO_DERIVATIVES, NO_MODEL_EXCHANGE, NO_OUTPUT_DERIVATIVES, Preemption,
+                NO_DEPENDENCIES, NO_DERIVATIVES, NO_MODEL_EXCHANGE, Preemption,
             };
             use $crate::fmi::abi::logger::Fmi3Log;
-            use $crate::fmi::abi::states;
+            use $crate::fmi::abi::{states, values};
+            use $crate::fmi::instance::Access;
 
             $crate::__fmi_functions! {
                 fn fmi3GetVersion() -> *const c_char =
@@ -28,7 +29,9 @@ macro_rules! export_fmi3 {
                 fn fmi3SetDebugLogging(
                     pointer: Opaque, logging_on: Boolean, count: usize, categories: *const *const c_char,
                 ) -> Status =
-                    fmi3::set_debug_logging::<$scene>(pointer, logging_on, count, categories);
+                    common::set_debug_logging::<$scene>(
+                        pointer, Three, "fmi3SetDebugLogging", logging_on != 0, (categories, count)
+                    );
                 fn fmi3InstantiateModelExchange(
                     name: *const c_char, token: *const c_char, resource_path: *const c_char, visible: Boolean,
                     logging_on: Boolean, environment: Opaque, log: Option<Fmi3Log>,
@@ -61,13 +64,13 @@ macro_rules! export_fmi3 {
                         pointer, (tolerance_defined != 0).then_some(tolerance), start, stop_defined, stop
                     );
                 fn fmi3ExitInitializationMode(pointer: Opaque) -> Status =
-                    fmi3::transition::<$scene>(pointer, "fmi3ExitInitializationMode", Instance::exit_initialization);
+                    common::transition::<$scene>(pointer, Three, "fmi3ExitInitializationMode", Instance::exit_initialization);
                 fn fmi3EnterEventMode(pointer: Opaque) -> Status =
-                    fmi3::transition::<$scene>(pointer, "fmi3EnterEventMode", Instance::enter_event_mode);
+                    common::transition::<$scene>(pointer, Three, "fmi3EnterEventMode", Instance::enter_event_mode);
                 fn fmi3Terminate(pointer: Opaque) -> Status =
-                    fmi3::transition::<$scene>(pointer, "fmi3Terminate", Instance::terminate);
+                    common::transition::<$scene>(pointer, Three, "fmi3Terminate", Instance::terminate);
                 fn fmi3Reset(pointer: Opaque) -> Status =
-                    fmi3::reset::<$scene>(pointer);
+                    common::reset::<$scene>(pointer, Three, "fmi3Reset");
                 fn fmi3GetFloat32(
                     pointer: Opaque, references: *const u32, count: usize, values: *mut f32, length: usize,
                 ) -> Status =
@@ -75,7 +78,7 @@ macro_rules! export_fmi3 {
                 fn fmi3GetFloat64(
                     pointer: Opaque, references: *const u32, count: usize, values: *mut f64, length: usize,
                 ) -> Status =
-                    fmi3::get_float64::<$scene>(pointer, (references, count, values, length));
+                    values::get_real::<$scene>(pointer, Three, "fmi3GetFloat64", (references, count, values, length));
                 fn fmi3GetInt8(
                     pointer: Opaque, references: *const u32, count: usize, values: *mut i8, length: usize,
                 ) -> Status =
@@ -95,7 +98,9 @@ macro_rules! export_fmi3 {
                 fn fmi3GetInt32(
                     pointer: Opaque, references: *const u32, count: usize, values: *mut i32, length: usize,
                 ) -> Status =
-                    fmi3::get_int32::<$scene>(pointer, (references, count, values, length));
+                    values::get_whole::<$scene, _>(
+                        pointer, Three, "fmi3GetInt32", (references, count, values, length), Access::Integer
+                    );
                 fn fmi3GetUInt32(
                     pointer: Opaque, references: *const u32, count: usize, values: *mut u32, length: usize,
                 ) -> Status =
@@ -103,7 +108,9 @@ macro_rules! export_fmi3 {
                 fn fmi3GetInt64(
                     pointer: Opaque, references: *const u32, count: usize, values: *mut i64, length: usize,
                 ) -> Status =
-                    fmi3::get_int64::<$scene>(pointer, (references, count, values, length));
+                    values::get_whole::<$scene, _>(
+                        pointer, Three, "fmi3GetInt64", (references, count, values, length), Access::Long
+                    );
                 fn fmi3GetUInt64(
                     pointer: Opaque, references: *const u32, count: usize, values: *mut u64, length: usize,
                 ) -> Status =
@@ -133,7 +140,7 @@ macro_rules! export_fmi3 {
                 fn fmi3SetFloat64(
                     pointer: Opaque, references: *const u32, count: usize, values: *const f64, length: usize,
                 ) -> Status =
-                    fmi3::set_float64::<$scene>(pointer, (references, count, values, length));
+                    values::set_real::<$scene>(pointer, Three, "fmi3SetFloat64", (references, count, values, length));
                 fn fmi3SetInt8(
                     pointer: Opaque, references: *const u32, count: usize, values: *const i8, length: usize,
                 ) -> Status =
@@ -153,7 +160,9 @@ macro_rules! export_fmi3 {
                 fn fmi3SetInt32(
                     pointer: Opaque, references: *const u32, count: usize, values: *const i32, length: usize,
                 ) -> Status =
-                    fmi3::set_int32::<$scene>(pointer, (references, count, values, length));
+                    values::set_whole::<$scene, _>(
+                        pointer, Three, "fmi3SetInt32", (references, count, values, length), Access::Integer
+                    );
                 fn fmi3SetUInt32(
                     pointer: Opaque, references: *const u32, count: usize, values: *const u32, length: usize,
                 ) -> Status =
@@ -161,7 +170,9 @@ macro_rules! export_fmi3 {
                 fn fmi3SetInt64(
                     pointer: Opaque, references: *const u32, count: usize, values: *const i64, length: usize,
                 ) -> Status =
-                    fmi3::set_int64::<$scene>(pointer, (references, count, values, length));
+                    values::set_whole::<$scene, _>(
+                        pointer, Three, "fmi3SetInt64", (references, count, values, length), Access::Long
+                    );
                 fn fmi3SetUInt64(
                     pointer: Opaque, references: *const u32, count: usize, values: *const u64, length: usize,
                 ) -> Status =
@@ -308,12 +319,14 @@ macro_rules! export_fmi3 {
                         pointer, Three, "fmi3GetNumberOfContinuousStates", NO_MODEL_EXCHANGE
                     );
                 fn fmi3EnterStepMode(pointer: Opaque) -> Status =
-                    fmi3::transition::<$scene>(pointer, "fmi3EnterStepMode", Instance::enter_step_mode);
+                    common::transition::<$scene>(pointer, Three, "fmi3EnterStepMode", Instance::enter_step_mode);
                 fn fmi3GetOutputDerivatives(
                     pointer: Opaque, references: *const u32, count: usize, orders: *const i32, values: *mut f64,
                     length: usize,
                 ) -> Status =
-                    fmi3::none_offered::<$scene>(pointer, "fmi3GetOutputDerivatives", count, NO_OUTPUT_DERIVATIVES);
+                    values::get_output_derivatives::<$scene>(
+                        pointer, Three, "fmi3GetOutputDerivatives", orders, (references, count, values, length)
+                    );
                 fn fmi3DoStep(
                     pointer: Opaque, current: f64, step: f64, keep: Boolean, event_handling_needed: *mut Boolean,
                     terminate_simulation: *mut Boolean, early_return: *mut Boolean,

@@ -5,10 +5,10 @@ use std::ffi::{CString, c_char, c_int};
 use super::common::{self, Opaque, Status, enter};
 use super::logger::{Callback, Fmi2Log, Logger};
 use super::memory;
-use crate::error::{Error, Result};
-use crate::fmi::instance::{Access, Importer, Instance};
+use crate::error::Error;
+use crate::fmi::instance::{Importer, Instance};
 use crate::fmi::life_cycle::Version::Two;
-use crate::scene::{Scene, Value};
+use crate::scene::Scene;
 
 /// `fmi2CallbackFunctions`. Memory is our own and steps are synchronous, so that only the logger is called.
 #[repr(C)]
@@ -77,39 +77,6 @@ pub unsafe fn instantiate<S: Scene>(
     })
 }
 
-/// `fmi2SetDebugLogging`.
-///
-/// # Safety
-/// As for [`enter`]; `categories` is null or has `count` strings.
-pub unsafe fn set_debug_logging<S: Scene>(
-    pointer: Opaque,
-    on: c_int,
-    count: usize,
-    categories: *const *const c_char,
-) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Two, "fmi2SetDebugLogging", |inner| {
-            let names = texts(categories, count)?;
-            inner.logger.switch(on != 0, &names)
-        })
-    }
-}
-
-/// Copies an array of C strings.
-///
-/// # Safety
-/// `categories` is null or has `count` strings.
-pub(super) unsafe fn texts(categories: *const *const c_char, count: usize) -> Result<Vec<String>> {
-    // SAFETY: by the caller's promise.
-    let pointers = unsafe { memory::slice(categories, count, "the array of categories") }?;
-    // SAFETY: by the caller's promise.
-    pointers
-        .iter()
-        .map(|pointer| unsafe { memory::text(*pointer, "a category") })
-        .collect()
-}
-
 /// `fmi2SetupExperiment`.
 ///
 /// # Safety
@@ -127,137 +94,6 @@ pub unsafe fn setup_experiment<S: Scene>(
             inner
                 .instance
                 .set_up_within(tolerance, start, (stop_defined != 0).then_some(stop))
-        })
-    }
-}
-
-/// A call that only moves the instance along its life cycle.
-///
-/// # Safety
-/// As for [`enter`].
-pub unsafe fn transition<S: Scene>(
-    pointer: Opaque,
-    function: &str,
-    change: impl FnOnce(&mut Instance<S>) -> Result<()>,
-) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Two, function, |inner| {
-            change(&mut inner.instance)?;
-            inner.tell(function);
-            Ok(())
-        })
-    }
-}
-
-/// `fmi2Reset`.
-///
-/// # Safety
-/// As for [`enter`].
-pub unsafe fn reset<S: Scene>(pointer: Opaque) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Two, "fmi2Reset", |inner| {
-            inner.reset();
-            inner.tell("fmi2Reset");
-            Ok(())
-        })
-    }
-}
-
-/// `fmi2GetReal`.
-///
-/// # Safety
-/// As for [`enter`]; arrays are null or have `count` elements.
-pub unsafe fn get_real<S: Scene>(pointer: Opaque, references: *const u32, count: usize, values: *mut f64) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Two, "fmi2GetReal", |inner| {
-            inner.get((references, count), values, Access::Real, real)
-        })
-    }
-}
-
-/// `fmi2GetInteger`.
-///
-/// # Safety
-/// As for [`enter`]; arrays are null or have `count` elements.
-pub unsafe fn get_integer<S: Scene>(
-    pointer: Opaque,
-    references: *const u32,
-    count: usize,
-    values: *mut c_int,
-) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Two, "fmi2GetInteger", |inner| {
-            inner.get((references, count), values, Access::AnyInteger, integer)
-        })
-    }
-}
-
-/// `fmi2SetReal`.
-///
-/// # Safety
-/// As for [`enter`]; arrays are null or have `count` elements.
-pub unsafe fn set_real<S: Scene>(pointer: Opaque, references: *const u32, count: usize, values: *const f64) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Two, "fmi2SetReal", |inner| {
-            inner.set((references, count), values, Access::Real, Value::Real)
-        })
-    }
-}
-
-/// `fmi2SetInteger`.
-///
-/// # Safety
-/// As for [`enter`]; arrays are null or have `count` elements.
-pub unsafe fn set_integer<S: Scene>(
-    pointer: Opaque,
-    references: *const u32,
-    count: usize,
-    values: *const c_int,
-) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Two, "fmi2SetInteger", |inner| {
-            inner.set((references, count), values, Access::AnyInteger, |value| {
-                Value::Integer(i64::from(value))
-            })
-        })
-    }
-}
-
-/// The real in a value.
-pub(super) fn real(value: Value) -> Option<f64> {
-    match value {
-        Value::Real(real) => Some(real),
-        Value::Integer(_) => None,
-    }
-}
-
-/// The integer in a value, if it fits.
-pub(super) fn integer<T: TryFrom<i64>>(value: Value) -> Option<T> {
-    match value {
-        Value::Integer(integer) => T::try_from(integer).ok(),
-        Value::Real(_) => None,
-    }
-}
-
-/// `fmi2SetRealInputDerivatives` and `fmi2GetRealOutputDerivatives`: offered for no variable.
-///
-/// # Safety
-/// As for [`enter`].
-pub unsafe fn derivatives<S: Scene>(pointer: Opaque, function: &str, count: usize) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Two, function, |_| match count {
-            0 => Ok(()),
-            _ => Err(Error::call(
-                "derivatives are not offered (canInterpolateInputs = false, maxOutputDerivativeOrder = 0)",
-                "Where a scene follows a motion it has an input for the velocity: set that.",
-            )),
         })
     }
 }

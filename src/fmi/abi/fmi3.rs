@@ -6,13 +6,12 @@
 use std::ffi::{c_char, c_int};
 
 use super::common::{self, Opaque, Status, enter};
-use super::fmi2::{integer, real, texts};
 use super::logger::{Callback, Fmi3Log, Logger};
 use super::memory;
-use crate::error::{Error, Result};
-use crate::fmi::instance::{Access, Importer, Instance};
+use crate::error::Error;
+use crate::fmi::instance::{Importer, Instance};
 use crate::fmi::life_cycle::Version::Three;
-use crate::scene::{Scene, Value};
+use crate::scene::Scene;
 
 /// `fmi3Boolean` and `fmi3Clock`.
 pub type Boolean = u8;
@@ -28,10 +27,8 @@ pub type Preemption = unsafe extern "C" fn();
 pub const NO_MODEL_EXCHANGE: &str = "model exchange is not offered, only co-simulation";
 /// Why partial derivatives are refused.
 pub const NO_DERIVATIVES: &str = "partial derivatives are not offered: collisions have none";
-/// Why derivatives of outputs are refused.
-pub const NO_OUTPUT_DERIVATIVES: &str = "derivatives of outputs are not offered (maxOutputDerivativeOrder = 0)";
 /// Why dependencies by element are refused.
-pub const NO_DEPENDENCIES: &str = "dependencies by element are not offered: all variables are scalars";
+pub const NO_DEPENDENCIES: &str = "dependencies by element are not offered (providesPerElementDependencies = false)";
 /// Why configuration mode is refused.
 pub const NO_CONFIGURATION: &str = "there are no structural parameters, so there is no configuration mode";
 /// Why clocks are refused.
@@ -66,7 +63,7 @@ pub unsafe fn instantiate<S: Scene>(
         }
         if required_intermediate > 0 {
             return Err(Error::call(
-                "intermediate variables are not offered (providesIntermediateUpdate = false)",
+                "intermediate update is not offered (providesIntermediateUpdate = false)",
                 "Pass nRequiredIntermediateVariables = 0.",
             ));
         }
@@ -89,25 +86,6 @@ pub fn refuse_instance<S: Scene>(function: &str, environment: Opaque, log: Optio
     })
 }
 
-/// `fmi3SetDebugLogging`.
-///
-/// # Safety
-/// As for [`enter`]; `categories` is null or has `count` strings.
-pub unsafe fn set_debug_logging<S: Scene>(
-    pointer: Opaque,
-    on: Boolean,
-    count: usize,
-    categories: *const *const c_char,
-) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Three, "fmi3SetDebugLogging", |inner| {
-            let names = texts(categories, count)?;
-            inner.logger.switch(on != FALSE, &names)
-        })
-    }
-}
-
 /// `fmi3EnterInitializationMode`.
 ///
 /// # Safety
@@ -121,135 +99,9 @@ pub unsafe fn enter_initialization_mode<S: Scene>(
 ) -> Status {
     // SAFETY: passed on.
     unsafe {
-        transition::<S>(pointer, "fmi3EnterInitializationMode", |instance| {
+        common::transition::<S>(pointer, Three, "fmi3EnterInitializationMode", |instance| {
             instance.set_up_within(tolerance, start, (stop_defined != FALSE).then_some(stop))?;
             instance.enter_initialization()
-        })
-    }
-}
-
-/// A call that only moves the instance along its life cycle.
-///
-/// # Safety
-/// As for [`enter`].
-pub unsafe fn transition<S: Scene>(
-    pointer: Opaque,
-    function: &str,
-    change: impl FnOnce(&mut Instance<S>) -> Result<()>,
-) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Three, function, |inner| {
-            change(&mut inner.instance)?;
-            inner.tell(function);
-            Ok(())
-        })
-    }
-}
-
-/// `fmi3Reset`.
-///
-/// # Safety
-/// As for [`enter`].
-pub unsafe fn reset<S: Scene>(pointer: Opaque) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Three, "fmi3Reset", |inner| {
-            inner.reset();
-            inner.tell("fmi3Reset");
-            Ok(())
-        })
-    }
-}
-
-/// References and values of a getter or setter, with both lengths.
-pub type Arrays<T> = (*const u32, usize, T, usize);
-
-/// `fmi3GetFloat64`.
-///
-/// # Safety
-/// As for [`enter`]; arrays are null or have the length given.
-pub unsafe fn get_float64<S: Scene>(pointer: Opaque, (references, count, values, length): Arrays<*mut f64>) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Three, "fmi3GetFloat64", |inner| {
-            memory::check_length(length, count, "the array of values")?;
-            inner.get((references, count), values, Access::Real, real)
-        })
-    }
-}
-
-/// `fmi3GetInt32`.
-///
-/// # Safety
-/// As for [`enter`]; arrays are null or have the length given.
-pub unsafe fn get_int32<S: Scene>(pointer: Opaque, (references, count, values, length): Arrays<*mut i32>) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Three, "fmi3GetInt32", |inner| {
-            memory::check_length(length, count, "the array of values")?;
-            inner.get((references, count), values, Access::Integer, integer)
-        })
-    }
-}
-
-/// `fmi3GetInt64`.
-///
-/// # Safety
-/// As for [`enter`]; arrays are null or have the length given.
-pub unsafe fn get_int64<S: Scene>(pointer: Opaque, (references, count, values, length): Arrays<*mut i64>) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Three, "fmi3GetInt64", |inner| {
-            memory::check_length(length, count, "the array of values")?;
-            inner.get((references, count), values, Access::Long, integer)
-        })
-    }
-}
-
-/// `fmi3SetFloat64`.
-///
-/// # Safety
-/// As for [`enter`]; arrays are null or have the length given.
-pub unsafe fn set_float64<S: Scene>(
-    pointer: Opaque,
-    (references, count, values, length): Arrays<*const f64>,
-) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Three, "fmi3SetFloat64", |inner| {
-            memory::check_length(length, count, "the array of values")?;
-            inner.set((references, count), values, Access::Real, Value::Real)
-        })
-    }
-}
-
-/// `fmi3SetInt32`.
-///
-/// # Safety
-/// As for [`enter`]; arrays are null or have the length given.
-pub unsafe fn set_int32<S: Scene>(pointer: Opaque, (references, count, values, length): Arrays<*const i32>) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Three, "fmi3SetInt32", |inner| {
-            memory::check_length(length, count, "the array of values")?;
-            inner.set((references, count), values, Access::Integer, |value: i32| {
-                Value::Integer(i64::from(value))
-            })
-        })
-    }
-}
-
-/// `fmi3SetInt64`.
-///
-/// # Safety
-/// As for [`enter`]; arrays are null or have the length given.
-pub unsafe fn set_int64<S: Scene>(pointer: Opaque, (references, count, values, length): Arrays<*const i64>) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Three, "fmi3SetInt64", |inner| {
-            memory::check_length(length, count, "the array of values")?;
-            inner.set((references, count), values, Access::Long, Value::Integer)
         })
     }
 }
@@ -302,20 +154,6 @@ pub unsafe fn do_step<S: Scene>(
                 memory::write(early_return, TRUE, "earlyReturn")?;
             }
             Ok(())
-        })
-    }
-}
-
-/// A function with a count that is offered for nothing: legal for no variables, refused otherwise.
-///
-/// # Safety
-/// As for [`enter`].
-pub unsafe fn none_offered<S: Scene>(pointer: Opaque, function: &str, count: usize, why: &str) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Three, function, |_| match count {
-            0 => Ok(()),
-            _ => Err(Error::call(why, "See the capability flags in modelDescription.xml.")),
         })
     }
 }

@@ -104,7 +104,7 @@ pub fn check_length(count: usize, expected: usize, name: &str) -> Result<()> {
     }
     Err(Error::call(
         format!("{name} has {count} elements, expected are {expected}"),
-        "All variables are scalars: pass one value for each value reference.",
+        "Pass one value for each scalar, and as many as its dimension says for each array.",
     ))
 }
 

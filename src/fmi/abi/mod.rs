@@ -9,9 +9,12 @@
 pub mod common;
 pub mod fmi2;
 pub mod fmi3;
+#[cfg(feature = "command-line")]
+pub mod importer;
 pub mod logger;
 pub mod memory;
 pub mod states;
+pub mod values;
 
 mod export;
 mod export_fmi2;

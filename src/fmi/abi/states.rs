@@ -1,10 +1,80 @@
 //! Saved states, alike in both versions but for the names of the functions.
 
-use super::common::{Opaque, Status, enter};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::common::{Inner, Opaque, Status, enter};
 use super::memory;
-use crate::error::Error;
+use crate::error::{Error, Result};
 use crate::fmi::life_cycle::Version;
+use crate::fmi::snapshot::Snapshot;
 use crate::scene::Scene;
+
+/// A state that the importer holds by its number.
+pub struct Saved<S: Scene> {
+    snapshot: Snapshot<S::State>,
+    bytes: Option<Vec<u8>>,
+}
+
+impl<S: Scene> Inner<S> {
+    /// Saves the state under `previous`, if that is one of ours, or under a new number.
+    ///
+    /// # Errors
+    /// The instance has failed.
+    pub fn save(&mut self, previous: Opaque) -> Result<Opaque> {
+        let snapshot = self.instance.save()?;
+        let number = match previous.addr() {
+            known if self.states.contains_key(&known) => known,
+            _ => next_number(),
+        };
+        Ok(self.keep(number, snapshot))
+    }
+
+    fn keep(&mut self, number: usize, snapshot: Snapshot<S::State>) -> Opaque {
+        self.states.insert(number, Saved { snapshot, bytes: None });
+        std::ptr::without_provenance_mut(number)
+    }
+
+    /// Goes back to a saved state.
+    ///
+    /// # Errors
+    /// Unknown state, or one that does not fit.
+    pub fn restore(&mut self, state: Opaque) -> Result<()> {
+        let saved = self.states.get(&state.addr()).ok_or_else(unknown_state)?;
+        self.instance.restore(&saved.snapshot)
+    }
+
+    /// Forgets a saved state. Null is ignored, as both standards ask.
+    ///
+    /// # Errors
+    /// Unknown state.
+    pub fn forget(&mut self, state: Opaque) -> Result<()> {
+        match self.states.remove(&state.addr()) {
+            None if !state.is_null() => Err(unknown_state()),
+            _ => Ok(()),
+        }
+    }
+
+    /// Bytes of a saved state; written once, since importers ask for the size first.
+    ///
+    /// # Errors
+    /// Unknown state.
+    pub fn bytes(&mut self, state: Opaque) -> Result<&[u8]> {
+        let saved = self.states.get_mut(&state.addr()).ok_or_else(unknown_state)?;
+        if saved.bytes.is_none() {
+            saved.bytes = Some(saved.snapshot.to_bytes(self.instance.token())?);
+        }
+        Ok(saved.bytes.as_deref().unwrap_or_default())
+    }
+
+    /// Makes a saved state of bytes.
+    ///
+    /// # Errors
+    /// Damaged or foreign bytes.
+    pub fn read_bytes(&mut self, bytes: &[u8]) -> Result<Opaque> {
+        let snapshot = self.instance.read_snapshot(bytes)?;
+        Ok(self.keep(next_number(), snapshot))
+    }
+}
 
 /// `fmi2GetFMUstate`, `fmi3GetFMUState`.
 ///
@@ -117,4 +187,17 @@ pub unsafe fn deserialize<S: Scene>(
             memory::write(state, saved, "the pointer to the FMU state")
         })
     }
+}
+
+/// Numbers are never used twice in a process, so that no state of one instance passes for one of another.
+fn next_number() -> usize {
+    static NEXT: AtomicUsize = AtomicUsize::new(1);
+    NEXT.fetch_add(1, Ordering::Relaxed)
+}
+
+fn unknown_state() -> Error {
+    Error::call(
+        "this FMU state is not one of this instance: never saved here, or freed",
+        "Pass a state that this instance saved or deserialized and did not free.",
+    )
 }

@@ -80,7 +80,7 @@ impl Setting {
                 remedy,
             ));
         }
-        if !(self.tilt.abs() < self.half_angle) {
+        if self.tilt.is_nan() || self.tilt.abs() >= self.half_angle {
             let allowed = format!(
                 "between -{0} and {0} rad, half the angle between the contacts",
                 self.half_angle

@@ -171,3 +171,19 @@ fn a_file_that_cannot_be_written_ends_with_code_1() {
         text(&output.stderr)
     );
 }
+
+#[test]
+fn theory_prints_csv_and_refuses_what_it_has_not() {
+    let output = jostle(&["theory", "three_disk", "limits", "--set", "tilt=0,0.2"]);
+    let page = text(&output.stdout);
+    let lines: Vec<&str> = page.lines().collect();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(lines.len() == 3 && lines[0].starts_with("tilt,A_S1,A_S2,A_0"));
+    let column = |index: usize| lines[1].split(',').nth(index).unwrap().parse::<f64>().unwrap();
+    assert_eq!(column(1), column(2)); // without tilt both limits are A_0
+    for arguments in [["theory", "packing", "limits"], ["theory", "three_disk", "limits"]] {
+        let output = jostle(&[&arguments[..], &["--set", "tilt=0.7"]].concat());
+        assert_eq!(output.status.code(), Some(2));
+        assert!(output.stdout.is_empty());
+    }
+}

@@ -162,7 +162,7 @@ def _label(method: str, points: list[Point]) -> str:
 def draw_all(found: list[Diagram], folder: Path) -> list[Path]:
     """One picture for all quantities of a case."""
     pictures = []
-    for case in dict.fromkeys(diagram.case for diagram in found):
+    for case in dict.fromkeys(diagram.case for diagram in found if diagram.curves):
         chosen = [diagram for diagram in found if diagram.case == case]
         methods = list(dict.fromkeys(method for diagram in chosen for method in diagram.curves))
         colours = {method: (COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]) for i, method in enumerate(methods)}
@@ -234,6 +234,8 @@ def _summary(found: list[Diagram]) -> str:
 def _section(chosen: list[Diagram], pictures: str) -> str:
     first = chosen[0]
     parts = [f"## {first.case}", first.problem]
+    if not any(diagram.curves or diagram.troubles for diagram in chosen):
+        return "\n\n".join([*parts, f"Not measured here: `jostle report --only {first.case}`."])
     parts.append(f"![Error against CPU time: {first.case}]({pictures}/{first.case}.png)")
     parts.append(f"Setting: {first.setting}. Reference: {first.reference}.")
     parts.extend(_numbers(diagram) for diagram in chosen)

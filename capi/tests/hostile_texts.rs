@@ -2,7 +2,6 @@
 #![allow(unsafe_code, clippy::unwrap_used, clippy::undocumented_unsafe_blocks)]
 
 use std::ffi::CString;
-use std::ptr::null_mut;
 
 use jostle_c::{JostleSetting, jostle_free, jostle_new, jostle_new_from_toml};
 use proptest::prelude::*;

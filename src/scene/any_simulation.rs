@@ -276,7 +276,7 @@ mod tests {
                 drive: Some(card.drive),
                 disks: Some(3.min(*card.disks.end())),
             };
-            let mut one = AnySimulation::new(selection, &[("seed", "5")]).unwrap();
+            let mut one = AnySimulation::new(selection, &[]).unwrap();
             let mut other = AnySimulation::new(selection, &[]).unwrap();
             one.advance_to(0.01).unwrap();
             other.restore_bytes(&one.to_bytes().unwrap()).unwrap();

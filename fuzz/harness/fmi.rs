@@ -24,6 +24,8 @@ pub struct Slot {
 /// What a run has at hand besides numbers.
 pub struct Importer<'a> {
     pub hand: Hand<'a>,
+    /// Each at an address of its own: components keep pointers to them.
+    #[allow(clippy::vec_box)]
     pub slots: Vec<Box<Slot>>,
     pub states: [Opaque; 6],
     pub saved: Vec<u8>,
@@ -143,8 +145,11 @@ unsafe fn listen(environment: *mut c_void, category: *const c_char, message: *co
     }
 }
 
+/// What a callback calls back.
+type CallBack = unsafe fn(&Slot) -> Status;
+
 thread_local! {
-    pub static CALL_BACK: Cell<Option<unsafe fn(&Slot) -> Status>> = const { Cell::new(None) };
+    pub static CALL_BACK: Cell<Option<CallBack>> = const { Cell::new(None) };
 }
 
 pub unsafe extern "C" fn log3(environment: *mut c_void, _: c_int, category: *const c_char, message: *const c_char) {

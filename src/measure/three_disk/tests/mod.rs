@@ -48,8 +48,9 @@ fn solve<const N: usize>(mut rows: [[f64; N]; N], mut right: [f64; N]) -> [f64; 
         for row in 0..N {
             if row != column {
                 let factor = rows[row][column] / rows[column][column];
-                for k in 0..N {
-                    rows[row][k] -= factor * rows[column][k];
+                let pivot = rows[column];
+                for (entry, above) in rows[row].iter_mut().zip(pivot) {
+                    *entry -= factor * above;
                 }
                 right[row] -= factor * right[column];
             }

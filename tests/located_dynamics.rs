@@ -96,12 +96,15 @@ fn impacts_converge_at_fourth_order() {
     let duration = std::f64::consts::PI * (mass(RADIUS) / 1e4).sqrt();
     for (name, laws, velocity) in cases {
         let errors = [10.0, 20.0, 40.0, 80.0, 160.0].map(|steps| impact_errors(laws, velocity, duration / steps));
-        let text = |part: usize| errors.map(|error| format!("{:.1e}", error[part])).join(" ");
-        println!("{name:13} 10 to 160 steps a contact: e_n {}, u_t' {}", text(0), text(1));
-        for part in 0..2 {
-            let order = order(errors[0][part], errors[4][part], 16.0);
-            assert!(order > 3.5, "{name}: order {order:.2} of {}", text(part));
-            assert!(errors[3][part] < 2e-8, "{name}: {}", text(part));
+        let parts = [
+            ("e_n", errors.map(|error| error[0])),
+            ("u_t'", errors.map(|error| error[1])),
+        ];
+        for (part, errors) in parts {
+            let order = order(errors[0], errors[4], 16.0);
+            println!("{name:13} {part:4} at 10 to 160 steps a contact: {errors:?}, order {order:.2}");
+            assert!(order > 3.5, "{name}, {part}: order {order:.2} of {errors:?}");
+            assert!(errors[3] < 2e-8, "{name}, {part}: {errors:?}");
         }
     }
 }

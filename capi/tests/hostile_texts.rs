@@ -2,7 +2,6 @@
 #![allow(unsafe_code, clippy::unwrap_used, clippy::undocumented_unsafe_blocks)]
 
 use std::ffi::CString;
-use std::ptr::null_mut;
 
 use jostle_c::{JostleSetting, jostle_free, jostle_new, jostle_new_from_toml};
 use proptest::prelude::*;
@@ -13,7 +12,7 @@ fn from_toml(text: &str) -> String {
     unsafe {
         let made = jostle_new_from_toml(toml.as_ptr(), told.as_mut_ptr().cast(), told.len());
         assert!(
-            made != null_mut() || told[0] != 0,
+            !made.is_null() || told[0] != 0,
             "neither a simulation nor a text: {text:?}"
         );
         jostle_free(made);
@@ -55,7 +54,7 @@ proptest! {
             let scene = c"wedge".as_ptr();
             let (none, text) = (std::ptr::null(), told.as_mut_ptr().cast());
             let made = jostle_new(scene, none, none, 0, &setting, 1, text, told.len());
-            prop_assert!(made != null_mut() || told[0] != 0);
+            prop_assert!(!made.is_null() || told[0] != 0);
             jostle_free(made);
         }
     }

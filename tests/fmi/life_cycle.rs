@@ -294,7 +294,7 @@ fn the_importers_tolerance_chooses_the_time_step() {
     assert_eq!(located(None, Some(1e-8)), located(Some(1e-8), None));
     assert_ne!(located(None, Some(1e-8)), located(None, None));
     assert_eq!(located(Some(1e-7), Some(1e-8)), located(Some(1e-7), None));
-    assert_eq!(located(None, Some(0.5)), located(Some(1e-3), None));
+    assert_eq!(located(None, Some(0.5)), located(Some(1e-4), None));
     for wrong in [0.0, -1.0, 1e-20, f64::NAN, f64::INFINITY] {
         let refusal = located(None, Some(wrong)).unwrap_err();
         assert!(refusal.contains("tolerance"), "{refusal}");

@@ -11,6 +11,7 @@
 //! `start + n time_step` alone; a look between two grid points takes one short step on a copy. Momentum is kept to
 //! rounding: a contact gives both its bodies the same impulse. Not here: how the base moves (`drive`).
 
+mod extrapolation;
 mod frame;
 mod kinematics;
 mod laws;

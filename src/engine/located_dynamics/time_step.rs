@@ -7,8 +7,11 @@ use crate::engine::molecular_dynamics::{ContactLaws, TimeStepLimits};
 /// Error of an impact if the law of the fourth power held down to one step a period.
 const ERROR_OF_ONE_STEP: f64 = 0.8;
 
-/// Steps in a period below which impacts are no longer resolved and packings may turn unstable.
-const FEWEST_STEPS: f64 = 6.0;
+/// Steps in a period below which a disk with six contacts gains energy: 6 and 7 do so in a packing at rest, 8 does not.
+const FEWEST_STEPS: f64 = 8.0;
+
+/// Largest step over the time m / gamma_n in which a contact is damped: six contacts damp a disk three times as fast.
+const MOST_DAMPING: f64 = 1.0 / 3.0;
 
 /// Time steps for the two lightest disks of `masses` \[kg\] in contact and for a drive of frequency \[Hz\] if it is known.
 ///
@@ -33,9 +36,10 @@ pub fn limits(laws: &ContactLaws, masses: &[f64], drive_frequency: Option<f64>, 
     let period = TAU / (oscillation + decay * decay).sqrt();
     let drive_period = drive_frequency.map_or(f64::INFINITY, |frequency| 1.0 / frequency);
     let shortest = period.min(drive_period);
+    let largest = (shortest / FEWEST_STEPS).min(MOST_DAMPING / decay);
     let steps = (ERROR_OF_ONE_STEP / tolerance).powf(0.25);
     TimeStepLimits {
-        default: shortest / steps.max(FEWEST_STEPS),
-        largest: shortest / FEWEST_STEPS,
+        default: largest.min(shortest / steps),
+        largest,
     }
 }

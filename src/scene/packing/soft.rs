@@ -179,7 +179,7 @@ impl<D: BaseDrive> SoftEngine for LocatedDynamics<D> {
         let tolerance = Variable::parameter(
             "tolerance",
             Unit::One,
-            1e-12..=1e-3,
+            1e-12..=1e-4,
             1e-5,
             "Relative error that the velocities may have after one impact; chooses the time step",
         );

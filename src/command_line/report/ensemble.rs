@@ -72,10 +72,7 @@ pub fn cases() -> Vec<Case> {
 }
 
 /// What `cell` holds, computed the first time.
-fn fill(
-    cell: &OnceCell<Vec<f64>>,
-    compute: impl FnOnce() -> Result<Vec<f64>, Trouble>,
-) -> Result<&Vec<f64>, Trouble> {
+fn fill(cell: &OnceCell<Vec<f64>>, compute: impl FnOnce() -> Result<Vec<f64>, Trouble>) -> Result<&Vec<f64>, Trouble> {
     if let Some(known) = cell.get() {
         return Ok(known);
     }

@@ -99,7 +99,7 @@ fn run<L: CollisionLaw>(law: L, frame: Frame, seconds: f64, seed: u64) -> Result
     let mut turning = BatchMeans::new(0.1 * seconds, FIRST_BATCH);
     let advance = |disk: &mut DiskInWedge<_, _>, time: f64| {
         disk.advance_to(time)
-            .map_err(|stuck| format!("the disk does not get off the walls at t = {} s", stuck.time))
+            .map_err(|stop| format!("the disk does not go on: {stop:?}"))
     };
     while turning.due() <= seconds {
         let due = turning.due();

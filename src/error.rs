@@ -91,6 +91,16 @@ impl Error {
         }
     }
 
+    /// Builds the [`Error::Step`] of a call that asks for more than a call may.
+    pub fn too_much_work(scene: &'static str, time: f64, asked: impl Into<String>) -> Self {
+        Self::Step {
+            scene,
+            time,
+            what: format!("the step asks for {}, more than one call may do", asked.into()),
+            remedy: "Take shorter communication steps.".into(),
+        }
+    }
+
     /// Builds [`Error::State`].
     pub fn state(what: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self::State {

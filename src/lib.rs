@@ -12,6 +12,7 @@ pub mod fmi;
 pub mod geometry;
 pub mod measure;
 pub mod packing;
+pub mod saved_bytes;
 pub mod scene;
 
 pub use error::{Error, Result};

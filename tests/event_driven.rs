@@ -7,9 +7,10 @@ use std::f64::consts::TAU;
 
 use jostle::collision::{CollisionLaw, ContactTime, Coulomb, Smooth};
 use jostle::drive::{FollowsInput, RandomPhase, Sine};
+use jostle::engine::Work;
 use jostle::engine::event_driven::{
-    AtRandomPhase, EventDriven, Gravity, Moving, Open, Partner, Periodic, Settings, Unbounded, VibratingBase, Walls,
-    Weightless,
+    AtRandomPhase, EventDriven, Gravity, Moving, Open, Partner, Periodic, Settings, Stop, Unbounded, Unobserved,
+    VibratingBase, Walls, Weightless,
 };
 use jostle::geometry::{Disk, Wall};
 use jostle::packing::{RadiusDistribution, advancing_front};
@@ -346,10 +347,39 @@ fn collapse_is_told_with_time_and_place() {
         generator: Pcg64::seed_from_u64(1),
     };
     let mut engine = boxed(Smooth::new(0.5).unwrap(), base, &disk, &[[0.0; 3]]);
-    let stop = engine.advance_to(1.0).unwrap_err();
+    let Stop::NoHeadway(stop) = engine.advance_to(1.0).unwrap_err() else {
+        panic!("too many events");
+    };
     let fall = (2.0 * 0.01 / 9.8_f64).sqrt();
     assert!((stop.time - 3.0 * fall).abs() < 1e-9, "{stop:?}");
     assert_eq!(stop.last, (0, Partner::Wall(0)));
+}
+
+/// A call does no more than it may, so that none runs for hours; what is left is done in further calls.
+#[test]
+fn the_work_of_a_call_is_bounded() {
+    let disk = [Disk {
+        x: 0.0,
+        y: 0.05,
+        radius: 0.02,
+    }];
+    let law = ContactTime::new(Smooth::new(0.6).unwrap(), 1e-5).unwrap();
+    let mut engine = boxed(law, sine(3.0), &disk, &[[0.0; 3]]);
+    let mut other = engine.clone();
+    let start = engine.state().clone();
+    let stop = engine
+        .advance_within(10.0, &mut Unobserved, &mut Work::at_most(100))
+        .unwrap_err();
+    assert!(
+        matches!(stop, Stop::TooManyEvents { time, most: 100 } if (0.1..10.0).contains(&time)),
+        "{stop:?}"
+    );
+    engine.restore(&start);
+    for step in 1..=1000 {
+        engine.advance_to(0.01 * f64::from(step)).unwrap();
+    }
+    other.advance_to(10.0).unwrap();
+    assert!(engine.state() == other.state());
 }
 
 /// Hits on a true sine: the disk is at the base at each impact, and leaves by the law. A long run through several epochs.

@@ -5,9 +5,10 @@
 use jostle::fmi::Version;
 use jostle::fmi::bundle::{self, Component};
 use jostle::fmi::replay::{TOLERANCE, replay};
-use jostle::scene::packing::PackingOnInput;
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
+use jostle::scene::packing::{LocatedPackingOnInput, PackingOnInput};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
+use jostle::scene::three_disk::ThreeDiskOnInput;
 use jostle::scene::wedge::{WedgeEventDrivenOnInput, WedgeMap, WedgeMolecularDynamicsOnInput};
 use jostle::scene::{Choice, Kind, Scene, Simulation};
 
@@ -62,8 +63,10 @@ fn growth<S: Scene>() -> f64 {
 fn reference_trajectories_are_short() {
     let grown = [
         growth::<PackingOnInput>(),
+        growth::<LocatedPackingOnInput>(),
         growth::<HardPackingOnInput>(),
         growth::<HardPackingOnSine>(),
+        growth::<ThreeDiskOnInput>(),
         growth::<RatchetOnInput>(),
         growth::<RatchetOnSine>(),
         growth::<WedgeMap>(),

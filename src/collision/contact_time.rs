@@ -46,4 +46,8 @@ impl<L: CollisionLaw> CollisionLaw for ContactTime<L> {
     fn tangential_impulse(&self, impact: &Impact, normal_impulse: f64) -> f64 {
         self.law.tangential_impulse(impact, normal_impulse)
     }
+
+    fn most_work(&self) -> u64 {
+        self.law.most_work()
+    }
 }

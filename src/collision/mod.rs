@@ -68,6 +68,11 @@ pub trait CollisionLaw {
     /// `J_t` \[N.s\] that goes with the normal impulse J_n \[N.s\].
     fn tangential_impulse(&self, impact: &Impact, normal_impulse: f64) -> f64;
 
+    /// What an impact may cost at most, in the time of an event with an impact in closed form.
+    fn most_work(&self) -> u64 {
+        1
+    }
+
     /// Both impulses. `J_n = m_eff (|u_n| + |u_n'|)` (F A11 in magnitudes).
     #[inline]
     fn impulse(&self, impact: &Impact) -> Impulse {

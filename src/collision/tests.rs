@@ -327,6 +327,19 @@ fn degenerate_impacts() {
     assert_eq!(table.impulse(&other), law.impulse(&other));
 }
 
+/// A skin too stiff for tables is found out once, not for each of the masses.
+#[test]
+fn a_table_without_end_is_given_up_once() {
+    let masses: Vec<f64> = (1..=40).map(|mass| 1e-3 * f64::from(mass)).collect();
+    let stiff = Dashpot::new(1e4, 0.1, 1e4, 0.2).unwrap();
+    let table = TabulatedDashpot::new(stiff, &masses, 0.5);
+    assert!(table.pieces() == 0 && table.samples() < 25_000, "{}", table.samples());
+    assert!(table.most_work() > 1000);
+    let usual = Dashpot::new(1e4, 0.1, 2.0 / 7.0, 0.2).unwrap();
+    let table = TabulatedDashpot::new(usual, &masses, 0.5);
+    assert!(table.pieces() > 40 && table.most_work() == 1);
+}
+
 #[test]
 fn refuses_what_is_out_of_range() {
     assert!(

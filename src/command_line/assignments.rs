@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use jostle::scene::{Causality, Choice, Kind, Scene, Table, Value, Values};
+use jostle::scene::{Causality, Choice, Scene, Table, Values};
 use jostle::{Error, Result};
 
 /// Start values of the scene with these assignments on top; of several to one name the last counts.
@@ -42,28 +42,7 @@ fn assign(values: &mut Values, name: &str, text: &str) -> Result<()> {
             remedy,
         ));
     }
-    let value = match row.kind {
-        Kind::Real(_) => text.parse().map(Value::Real).ok(),
-        Kind::Integer { .. } | Kind::Long { .. } => text.parse().map(Value::Integer).ok(),
-        // By name or by number.
-        Kind::Enumeration { options, .. } => {
-            let by_name = (1..).zip(options).find(|(_, (name, _))| *name == text);
-            let number = by_name.map(|(number, _)| number).or_else(|| text.parse().ok());
-            number.map(Value::Integer)
-        }
-    };
-    let Some(value) = value else {
-        let digits = "Write it with digits, such as 2 or 1.5e-3.";
-        let (allowed, remedy) = match row.kind {
-            Kind::Real(_) => ("a number".into(), digits),
-            Kind::Integer { .. } | Kind::Long { .. } => ("a whole number of 64 bits".into(), digits),
-            Kind::Enumeration { options, .. } => {
-                let names: Vec<&str> = options.iter().map(|(name, _)| *name).collect();
-                (format!("one of: {}", names.join(", ")), "Give an option by its name.")
-            }
-        };
-        return Err(Error::parameter(name, text, allowed, remedy));
-    };
+    let value = row.read(text)?;
     values.set(position, value)
 }
 

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 
 use clap::Args;
+use jostle::scene::catalogue::{Visitor, with_scene};
 use jostle::scene::{Causality, Choice, Kind, Scene, Variable};
 
-use super::scenes::{Visitor, with_scene};
 use super::{Failure, Selection, text};
 
 /// Lists the variables of a scene: name, causality, unit, range, start value, meaning.

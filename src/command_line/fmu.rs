@@ -7,9 +7,9 @@ use clap::{Args, ValueEnum};
 use jostle::Error;
 use jostle::fmi::Version;
 use jostle::fmi::bundle::{self, Component};
+use jostle::scene::catalogue::{Visitor, with_scene};
 use jostle::scene::{Choice, Scene};
 
-use super::scenes::{Visitor, with_scene};
 use super::{Failure, Selection};
 
 /// The last second of the year 9999.

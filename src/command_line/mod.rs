@@ -9,7 +9,6 @@ mod fmu;
 mod replay;
 mod report;
 mod run;
-mod scenes;
 mod stability;
 #[cfg(test)]
 mod test_scene;

@@ -10,9 +10,9 @@ use std::time::Instant;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use jostle::Error;
+use jostle::scene::catalogue::{Visitor, sine_if_known, with_scene};
 use jostle::scene::{Causality, Choice, Kind, Scene, Values, Variable};
 
-use super::scenes::{Visitor, sine_if_known, with_scene};
 use super::{Failure, Selection, assignments, text};
 
 /// Most rows of one file; more is a slip of the keyboard.

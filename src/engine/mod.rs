@@ -5,3 +5,6 @@ pub mod located_dynamics;
 pub mod molecular_dynamics;
 pub mod three_disk;
 pub mod wedge;
+pub mod work;
+
+pub use work::{MOST_WORK_IN_A_CALL, Work};

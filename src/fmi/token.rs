@@ -9,6 +9,7 @@
 //! ```
 
 use crate::error::{Error, Result};
+use crate::scene::variables::fingerprint;
 use crate::scene::{Card, Choice, Scene, Variable};
 
 /// What a token stands for.
@@ -63,15 +64,4 @@ pub fn read<S: Scene>(token: &str) -> Result<Contents> {
 
 fn prefix(card: &Card) -> String {
     format!("jostle:{}:{}:{}:disks=", card.scene, card.engine, card.drive)
-}
-
-/// FNV-1a, 64 bits, over crate version, names, causalities, types, units, ranges and starts.
-fn fingerprint(rows: &[Variable]) -> u64 {
-    let mut text = String::from(env!("CARGO_PKG_VERSION"));
-    for row in rows {
-        text.push_str(&format!("\n{} {:?} {:?}", row.name, row.causality, row.kind));
-    }
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
 }

@@ -1,12 +1,16 @@
 //! Scenes: engines, laws, drives and measures wired together, with their parameters, ranges and variables.
 //!
 //! A [`Scene`] is all that the FMI boundary and the command line need to know; a Rust program takes a [`Simulation`] of
-//! it. Neither names FMI.
+//! it, or an [`AnySimulation`] if the scene is chosen by name at run time. None of them names FMI.
 
+mod any_simulation;
 pub mod base_drive;
+pub mod catalogue;
 pub mod hard_disks;
 pub mod packing;
 pub mod ratchet;
+#[cfg(feature = "toml")]
+mod recipe;
 mod simulation;
 pub mod three_disk;
 pub mod values;
@@ -17,7 +21,10 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::Result;
-pub use simulation::Simulation;
+pub use any_simulation::{AnySimulation, Selection};
+#[cfg(feature = "toml")]
+pub use recipe::Recipe;
+pub use simulation::{Saved, Simulation};
 pub use values::{OutputWriter, Table, Values};
 pub use variables::{Causality, Kind, Quantity, Unit, Value, Variable};
 
@@ -105,6 +112,11 @@ pub trait Scene: Sized + Send + 'static {
             event: false,
         })
     }
+
+    /// Lets one call of [`Scene::advance_to`] do no more than so much, instead of [`crate::engine::MOST_WORK_IN_A_CALL`].
+    /// It holds for this value of the scene, and is no part of its state. A scene whose calls take the same time whatever
+    /// is asked of them has nothing to limit.
+    fn limit_work(&mut self, _most: u64) {}
 
     /// Writes every calculated parameter and output, in the order of the rows.
     fn write_outputs(&self, outputs: OutputWriter<'_>);

@@ -14,6 +14,7 @@ use crate::engine::located_dynamics::LocatedDynamics;
 use crate::engine::molecular_dynamics::{
     Breakdown, ContactLaws, MolecularDynamics, Setup, TimeStepLimits, VelocityVerlet,
 };
+use crate::engine::{MOST_WORK_IN_A_CALL, Work};
 use crate::error::{Error, Result, are_sane};
 use crate::geometry::{Disk, Wall};
 use crate::packing::{RadiusClass, RadiusDistribution, advancing_front};
@@ -47,6 +48,8 @@ const FLOOR: usize = 0;
 pub struct SoftPacking<E> {
     engine: E,
     limits: TimeStepLimits,
+    /// Work that one call may do.
+    most_work: u64,
     report: Report,
 }
 
@@ -119,7 +122,12 @@ impl<E: SoftEngine> SoftPacking<E> {
             reaction_force: 0.0,
             start_energy,
         };
-        Ok(Self { engine, limits, report })
+        Ok(Self {
+            engine,
+            limits,
+            most_work: MOST_WORK_IN_A_CALL,
+            report,
+        })
     }
 
     /// The engine, to look at everything that is no output.
@@ -206,11 +214,10 @@ pub(super) fn refusal_of(scene: &'static str, breakdown: Breakdown) -> Error {
             "a position, a velocity or the base is beyond 1e100 or no longer finite".into(),
             format!("{smaller}."),
         ),
-        Breakdown::TooManySteps { time, steps } => (
-            time,
-            format!("{steps:e} time steps in one call"),
-            "Take shorter communication steps or a larger time_step.".into(),
-        ),
+        Breakdown::TooManySteps { time, steps, most } => {
+            let asked = format!("{steps:e} time steps (at most {most:e} for these disks)");
+            return Error::too_much_work(scene, time, asked);
+        }
     };
     Error::Step {
         scene,
@@ -252,7 +259,7 @@ impl<E: SoftEngine> Scene for SoftPacking<E> {
         let duration = end_time - from.time;
         let drive = self.engine.drive_mut().clone();
         self.engine.drive_mut().aim(from.time, duration, values);
-        if let Err(breakdown) = self.engine.advance_to(end_time) {
+        if let Err(breakdown) = self.engine.advance_within(end_time, &mut Work::at_most(self.most_work)) {
             *self.engine.drive_mut() = drive;
             return Err(refusal(breakdown));
         }
@@ -265,6 +272,10 @@ impl<E: SoftEngine> Scene for SoftPacking<E> {
             ..from
         };
         Ok(())
+    }
+
+    fn limit_work(&mut self, most: u64) {
+        self.most_work = most;
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {

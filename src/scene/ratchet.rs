@@ -10,9 +10,10 @@ use serde::{Deserialize, Serialize};
 use crate::collision::{Coulomb, VelocityFloor};
 use crate::drive::{BoundedDrive, FollowsInput, Sine};
 use crate::engine::event_driven::{
-    EventDriven, Gravity, Moving, NoHeadway, Observer, Partner, PeriodicAcross, Sawtooth, Settings, State, Unobserved,
+    EventDriven, Gravity, Moving, Observer, Partner, PeriodicAcross, Sawtooth, Settings, State, Stop, Unobserved,
     VibratingBase,
 };
+use crate::engine::{MOST_WORK_IN_A_CALL, Work};
 use crate::error::{Error, Result, are_sane};
 use crate::measure::Transport;
 
@@ -50,6 +51,8 @@ pub struct Ratchet<D: BoundedDrive> {
     layers: f64,
     /// Ceiling less the height of the teeth and the widest disk \[m\]: farther up the base would crush it.
     headroom: f64,
+    /// Work that one call may do.
+    most_work: u64,
     report: Report,
     averages: Averages,
 }
@@ -135,6 +138,7 @@ where
             let change = |boundary: &mut Sawtooth<D>| boundary.set_base(base);
             self.engine.change_boundary_observed(from, change, observer);
         }
+        let mut work = Work::at_most(self.most_work);
         let mark = values.real("measure.mark");
         if mark != self.averages.mark {
             let transport = Transport::new(from);
@@ -142,12 +146,14 @@ where
         }
         while self.averages.transport.due() <= end_time {
             let due = self.averages.transport.due();
-            self.engine.advance_observed(due, observer).map_err(refusal)?;
+            self.engine.advance_within(due, observer, &mut work).map_err(refusal)?;
             let places = (0..self.masses.len()).map(|disk| self.engine.seen(disk, due).0[0]);
-            let work = self.engine.state().counts.energy_input;
-            self.averages.transport.record(places, work);
+            let input = self.engine.state().counts.energy_input;
+            self.averages.transport.record(places, input);
         }
-        self.engine.advance_observed(end_time, observer).map_err(refusal)
+        self.engine
+            .advance_within(end_time, observer, &mut work)
+            .map_err(refusal)
     }
 
     /// Whether everything at `time` \[s\] is finite and far from overflow.
@@ -178,7 +184,13 @@ where
     }
 }
 
-fn refusal(stop: NoHeadway) -> Error {
+fn refusal(stop: Stop) -> Error {
+    let stop = match stop {
+        Stop::NoHeadway(stop) => stop,
+        Stop::TooManyEvents { time, most } => {
+            return Error::too_much_work(NAME, time, format!("more than {most} events"));
+        }
+    };
     let disk = stop.last.0 + 1;
     let partner = match stop.last.1 {
         Partner::Disk(other) => format!("disk {}", other + 1),
@@ -297,6 +309,7 @@ where
             gravity,
             inertia_factor,
             headroom,
+            most_work: MOST_WORK_IN_A_CALL,
             report: Report::at_start(start_time),
             averages: Averages {
                 transport: Transport::new(values.real("measure.start").max(start_time)),
@@ -309,6 +322,10 @@ where
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
         self.advance_observed(end_time, values, &mut Unobserved)
+    }
+
+    fn limit_work(&mut self, most: u64) {
+        self.most_work = most;
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {

@@ -1,13 +1,20 @@
 //! A scene for a Rust program: parameters in, then inputs, steps and outputs by name.
 //!
-//! Needs: a [`Scene`]. Guarantees: the checks and the bits of the same scene in an FMU. Not here: save and restore
-//! ([`Scene::state`], [`Scene::restore`]), and importers that speak FMI (`fmi`).
+//! Needs: a [`Scene`]. Guarantees: the checks and the bits of the same scene in an FMU. Not here: scenes whose type is
+//! found by name ([`super::AnySimulation`]), and importers that speak FMI (`fmi`).
+
+mod saving;
 
 use std::sync::Arc;
 
+use crate::engine::MOST_WORK_IN_A_CALL;
 use crate::error::{Error, Result};
 
 use super::{Causality, Choice, Scene, Table, Value, Values};
+pub use saving::Saved;
+
+/// Time at which every simulation starts \[s\].
+const START: f64 = 0.0;
 
 /// One run of a scene, from time 0 on.
 ///
@@ -24,9 +31,12 @@ use super::{Causality, Choice, Scene, Table, Value, Values};
 /// ```
 #[derive(Debug)]
 pub struct Simulation<S> {
+    choice: Choice,
     scene: S,
     values: Values,
     time: f64,
+    /// What [`Simulation::limit_work`] asked for.
+    most_work: u64,
 }
 
 impl<S: Scene> Simulation<S> {
@@ -36,26 +46,36 @@ impl<S: Scene> Simulation<S> {
     /// # Errors
     /// A disk count, a name or a value that the scene does not take.
     pub fn new(disks: u32, given: &[(&str, Value)]) -> Result<Self> {
-        let card = S::card();
-        if !card.disks.contains(&disks) {
-            return Err(Error::parameter(
-                "number of disks",
-                disks,
-                format!("{} to {}", card.disks.start(), card.disks.end()),
-                "Give a number in this range.",
-            ));
-        }
-        let choice = Choice { disks };
-        let mut values = Values::new(Arc::new(Table::new(S::variables(choice))));
+        let mut values = Self::start_values(disks)?;
         for (name, value) in given {
             give::<S>(&mut values, name, *value, &[Causality::Parameter, Causality::Input])?;
         }
-        let scene = S::new(choice, 0.0, &values)?;
+        Self::start(disks, values)
+    }
+
+    pub(super) fn start_values(disks: u32) -> Result<Values> {
+        let card = S::card();
+        if card.disks.contains(&disks) {
+            return Ok(Values::new(Arc::new(Table::new(S::variables(Choice { disks })))));
+        }
+        Err(Error::parameter(
+            "number of disks",
+            disks,
+            format!("{} to {}", card.disks.start(), card.disks.end()),
+            "Give a number in this range.",
+        ))
+    }
+
+    pub(super) fn start(disks: u32, mut values: Values) -> Result<Self> {
+        let choice = Choice { disks };
+        let scene = S::new(choice, START, &values)?;
         scene.write_outputs(values.writer());
         Ok(Self {
+            choice,
             scene,
             values,
-            time: 0.0,
+            time: START,
+            most_work: MOST_WORK_IN_A_CALL,
         })
     }
 
@@ -65,6 +85,26 @@ impl<S: Scene> Simulation<S> {
     /// No input of this name, or not a finite number.
     pub fn set(&mut self, name: &str, value: impl Into<Value>) -> Result<()> {
         give::<S>(&mut self.values, name, value.into(), &[Causality::Input])
+    }
+
+    /// Sets the input at `position`, as [`Simulation::position`] gave it: [`Simulation::set`] without the search.
+    ///
+    /// # Errors
+    /// No input there, or not a finite number.
+    pub fn set_at(&mut self, position: usize, value: impl Into<Value>) -> Result<()> {
+        match self.values.table().rows().get(position) {
+            Some(row) if row.causality == Causality::Input => self.values.set(position, value.into()),
+            Some(row) => Err(not_settable(&row.name, row.causality)),
+            None => self.values.set(position, value.into()),
+        }
+    }
+
+    /// Position of the variable called `name`: the same for as long as the simulation lives.
+    ///
+    /// # Errors
+    /// The scene has no such variable.
+    pub fn position(&self, name: &str) -> Result<usize> {
+        self.values.table().position(name).ok_or_else(|| Self::unknown(name))
     }
 
     /// Goes on to `end_time` \[s\] under the inputs as they stand, as one communication step.
@@ -84,6 +124,12 @@ impl<S: Scene> Simulation<S> {
         self.scene.write_outputs(self.values.writer());
         self.time = end_time;
         Ok(())
+    }
+
+    /// Lets one step do no more than so much, instead of what takes half an hour at most: see [`Work`](crate::engine::Work).
+    pub fn limit_work(&mut self, most: u64) {
+        self.most_work = most;
+        self.scene.limit_work(most);
     }
 
     /// Time reached \[s\].
@@ -126,38 +172,43 @@ impl<S: Scene> Simulation<S> {
         &self.values
     }
 
+    pub(super) fn unknown(name: &str) -> Error {
+        let card = S::card();
+        Error::call(
+            format!(
+                "the scene {} driven by {} has no variable {name}",
+                card.scene, card.drive
+            ),
+            format!("List them: jostle describe {} --drive {}.", card.scene, card.drive),
+        )
+    }
+
     fn value(&self, name: &str) -> Result<Value> {
-        let position = self.values.table().position(name);
-        position
-            .and_then(|position| self.values.get(position))
-            .ok_or_else(|| unknown::<S>(name))
+        let position = self.position(name)?;
+        Ok(self.values.as_slice()[position])
     }
 }
 
 fn give<S: Scene>(values: &mut Values, name: &str, value: Value, settable: &[Causality]) -> Result<()> {
     let Some(position) = values.table().position(name) else {
-        return Err(unknown::<S>(name));
+        return Err(Simulation::<S>::unknown(name));
     };
     let causality = values.table().rows()[position].causality;
     if settable.contains(&causality) {
         return values.set(position, value);
     }
-    let (why, remedy) = match causality {
-        Causality::Parameter => ("is a parameter, frozen since the start", "Give it to Simulation::new."),
-        _ => ("is computed by the scene", "Set a parameter or an input instead."),
-    };
-    Err(Error::call(format!("{name} {why}"), remedy))
+    Err(not_settable(name, causality))
 }
 
-fn unknown<S: Scene>(name: &str) -> Error {
-    let card = S::card();
-    Error::call(
-        format!(
-            "the scene {} driven by {} has no variable {name}",
-            card.scene, card.drive
+fn not_settable(name: &str, causality: Causality) -> Error {
+    let (why, remedy) = match causality {
+        Causality::Parameter => (
+            "is a parameter, frozen since the start",
+            "Give it when the simulation is made.",
         ),
-        format!("List them: jostle describe {} --drive {}.", card.scene, card.drive),
-    )
+        _ => ("is computed by the scene", "Set a parameter or an input instead."),
+    };
+    Error::call(format!("{name} {why}"), remedy)
 }
 
 #[cfg(test)]

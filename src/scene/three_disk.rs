@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::drive::excitation::{HarmonicTorque, HeldTorque, Piece, RandomSupports, SineSupports};
 use crate::engine::three_disk::{Record, Setup, State, Stuck, ThreeDisk as Engine, TimeStepLimits, equilibrium};
+use crate::engine::{MOST_WORK_IN_A_CALL, Work};
 use crate::error::{Error, Result, are_sane};
 use crate::measure::BatchMeans;
 
@@ -32,12 +33,17 @@ const NAME: &str = "three_disk";
 /// First duration of a batch of the running standard error \[s\] where no period is known; it doubles as the run goes on.
 const FIRST_BATCH: f64 = 1e-2;
 
+/// Work of a time step, in events of the other engines.
+const WORK_OF_STEP: f64 = 10.0;
+
 /// A disk on two supports, driven by E.
 #[derive(Debug)]
 pub struct ThreeDisk<E> {
     engine: Engine<E>,
     /// Energy at the start \[J\].
     energy: f64,
+    /// Work that one call may do.
+    most_work: u64,
     report: Report,
 }
 
@@ -116,8 +122,12 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
     }
 
     fn go(&mut self, end_time: f64, values: &Values, stop: bool) -> Result<Reached> {
-        let backup = self.state();
         let from = self.report.time;
+        let time_steps = (end_time - from) / self.engine.setup().time_step;
+        if !Work::at_most(self.most_work).spend((time_steps * WORK_OF_STEP) as u64) {
+            return Err(Error::too_much_work(NAME, from, format!("{time_steps:e} time steps")));
+        }
+        let backup = self.state();
         let upward = self.engine.state().now.disk[4];
         self.engine.steer(|excitation| excitation.aim(from, values));
         let checked = |scene: &mut Self| {
@@ -231,6 +241,7 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
         let mut scene = Self {
             engine,
             energy: kinetic + potential + elastic,
+            most_work: MOST_WORK_IN_A_CALL,
             report: Report {
                 time: start_time,
                 reaction_force: 0.0,
@@ -244,6 +255,10 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
         self.go(end_time, values, false).map(|_| ())
+    }
+
+    fn limit_work(&mut self, most: u64) {
+        self.most_work = most;
     }
 
     fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {

@@ -126,6 +126,21 @@ impl Values {
         Ok(())
     }
 
+    /// Whether all parameters are the same, bit by bit, since a scene may tell 0.0 from -0.0.
+    pub fn same_parameters(&self, others: &Values) -> bool {
+        let bits = |value: &Value| match value {
+            Value::Real(real) => real.to_bits(),
+            Value::Integer(integer) => *integer as u64,
+        };
+        let pairs = self.values.iter().zip(&others.values);
+        self.table
+            .rows()
+            .iter()
+            .zip(pairs)
+            .filter(|(row, _)| row.causality == Causality::Parameter)
+            .all(|(_, (one, other))| bits(one) == bits(other))
+    }
+
     /// Stores a value by name after checking it.
     pub fn set_by_name(&mut self, name: &str, value: Value) -> Result<()> {
         let Some(position) = self.table.position(name) else {

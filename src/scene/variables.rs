@@ -288,6 +288,34 @@ impl Variable {
         }
     }
 
+    /// Value that `text` stands for; of an enumeration the name of an option or its number. The range is not checked.
+    ///
+    /// # Errors
+    /// Text of another kind, with what is expected.
+    pub fn read(&self, text: &str) -> Result<Value> {
+        let value = match self.kind {
+            Kind::Real(_) => text.parse().map(Value::Real).ok(),
+            Kind::Integer { .. } | Kind::Long { .. } => text.parse().map(Value::Integer).ok(),
+            Kind::Enumeration { options, .. } => {
+                let by_name = (1..).zip(options).find(|(_, (name, _))| *name == text);
+                let number = by_name.map(|(number, _)| number).or_else(|| text.parse().ok());
+                number.map(Value::Integer)
+            }
+        };
+        value.ok_or_else(|| {
+            let digits = "Write it with digits, such as 2 or 1.5e-3.";
+            let (allowed, remedy) = match self.kind {
+                Kind::Real(_) => ("a number".into(), digits),
+                Kind::Integer { .. } | Kind::Long { .. } => ("a whole number of 64 bits".into(), digits),
+                Kind::Enumeration { options, .. } => {
+                    let names: Vec<&str> = options.iter().map(|(name, _)| *name).collect();
+                    (format!("one of: {}", names.join(", ")), "Give an option by its name.")
+                }
+            };
+            Error::parameter(&self.name, text, allowed, remedy)
+        })
+    }
+
     /// Says whether `value` may be given to this variable, and if not, why and what to do.
     pub fn check(&self, value: Value) -> Result<()> {
         match (&self.kind, value) {
@@ -342,6 +370,17 @@ impl Variable {
             )),
         }
     }
+}
+
+/// Tells a table of variables from any other: FNV-1a, 64 bits, over crate version, names, causalities, types, units, ranges and starts.
+pub fn fingerprint(rows: &[Variable]) -> u64 {
+    let mut text = String::from(env!("CARGO_PKG_VERSION"));
+    for row in rows {
+        text.push_str(&format!("\n{} {:?} {:?}", row.name, row.causality, row.kind));
+    }
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
 }
 
 /// A value of a variable.

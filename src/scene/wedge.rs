@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::drive::{FollowsInput, Sine};
 use crate::engine::molecular_dynamics::VelocityVerlet;
+use crate::engine::{MOST_WORK_IN_A_CALL, Work};
 use crate::error::{Error, Result, are_sane};
 use crate::measure::BatchMeans;
 
@@ -53,6 +54,8 @@ pub struct Wedge<E> {
     mass: f64,
     /// R / (A omega_b) \[s\]: what scales an angular velocity.
     scale: f64,
+    /// Work that one call may do.
+    most_work: u64,
     report: Report,
 }
 
@@ -86,12 +89,13 @@ impl<E: Engine> Wedge<E> {
 
     /// Runs to `end_time`, reading the angle wherever a batch ends. Engines look at no cost to what follows.
     fn run(&mut self, end_time: f64) -> Result<()> {
+        let mut work = Work::at_most(self.most_work);
         while self.report.turning.due() <= end_time {
             let due = self.report.turning.due();
-            self.engine.advance_to(due)?;
+            self.engine.advance_to(due, &mut work)?;
             self.report.turning.record(self.engine.look(due).angle);
         }
-        self.engine.advance_to(end_time)
+        self.engine.advance_to(end_time, &mut work)
     }
 }
 
@@ -125,6 +129,7 @@ impl<E: Engine> Scene for Wedge<E> {
         let mut scene = Self {
             engine,
             mass: values.real("disk.mass"),
+            most_work: MOST_WORK_IN_A_CALL,
             scale: values.real("disk.radius") / speed,
             report: Report {
                 time: start_time,
@@ -161,6 +166,10 @@ impl<E: Engine> Scene for Wedge<E> {
         self.report.reaction_force = (self.report.impulse - impulse) / (end_time - from);
         (self.report.impulse, self.report.time) = (impulse, end_time);
         Ok(())
+    }
+
+    fn limit_work(&mut self, most: u64) {
+        self.most_work = most;
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {

@@ -85,6 +85,35 @@ def test_c(reference: Printed):
     check(shell("sh c"), reference)
 
 
+def test_c_library(reference: Printed):
+    assert (ROOT / "capi" / "examples" / "shaken_packing.c").read_text() == block("c library")
+    program = block("sh c library").replace("target/release", str(RELEASE.parent))
+    check(run("bash", "-euo", "pipefail", "-c", program), reference)
+
+
+def test_c_library_from_toml():
+    program = f"""#include <stdio.h>
+#include "jostle.h"
+int main(void) {{
+    char error[1024] = "";
+    double angle = 0;
+    {block("c toml")}
+    if (!wedge || jostle_advance_to(wedge, 1) || jostle_get_by_name(wedge, "disk.angle[1]", &angle)) {{
+        fprintf(stderr, "%s\\n", error);
+        return 1;
+    }}
+    printf("%g\\n", angle);
+    jostle_free(wedge);
+    return 0;
+}}
+"""
+    (ROOT / "build" / "toml.c").write_text(program)
+    library = RELEASE.parent / "libjostle_c.a"
+    warnings = ["-Wall", "-Wextra", "-Werror"]
+    run("cc", "-std=c11", *warnings, "-I", "include", "build/toml.c", "-o", "build/toml", str(library), "-lm")
+    assert abs(float(run("build/toml"))) > 0.0
+
+
 def test_rust(reference: Printed):
     assert (ROOT / "examples" / "shaken_packing.rs").read_text() == block("rust")
     check(shell("sh rust"), reference)

@@ -105,9 +105,9 @@ impl Raw {
         let [constant, amplitude, omega] = self.torque;
         let (mut fx, mut fy) = (0.0, -self.mass * self.gravity);
         let mut torque = constant + amplitude * (omega * time).sin();
-        for index in 0..2 {
+        for (index, &unstretched) in unstretched.iter().enumerate() {
             let touch = self.touch(index, time, motion);
-            let (normal, stretch) = self.law(&touch, unstretched[index]);
+            let (normal, stretch) = self.law(&touch, unstretched);
             let tau = -self.tangential_stiffness * stretch;
             let tangent = [touch.normal[1], -touch.normal[0]];
             fx += normal * touch.normal[0] + tau / touch.ratio * tangent[0];

@@ -62,8 +62,7 @@ WHY = """
 - Negative transport begins at h = 4 to 5.5 mm, the later the steeper the teeth (Fig. 7 and its map): so at h = 5 mm the
   steepest teeth still push forwards, and so do they at 4 mm. It is not the tip (table of Fig. 6). "Between 4 and 16 mm"
   and "less than about 0.4" hold to within one step of our grid: near a = 0.45 the flow is weak but has not gone.
-- Fig. 10: n = 4.2 reverses here too, at 29 Hz; how far F's frequencies go is not said. n = 0.7 is close to it: it is
-  positive or zero in a window of 1 Hz right above the onset.
+- Fig. 10: n = 4.2 reverses here too, at 29 Hz; how far F's frequencies go is not said.
 - Fig. 7: at a = 0.05 and 18 mm a weak flow is left, three errors from zero; at 20 mm it has gone.
 - Dissipation: F refers to earlier work and shows nothing. Less restitution does weaken the positive flow; the negative
   one is strongest near 0.8. More friction strengthens the positive flow, threefold from none to 0.5, and leaves the

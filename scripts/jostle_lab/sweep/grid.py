@@ -85,7 +85,7 @@ class Grid:
         plain = {name: int(value) if value == int(value) else value for name, value in settings.items()}
         chosen = (*plain.items(), ("seed", seed))
         count = None if disks is None else int(disks)
-        return Run(self.scene, engine, self.seconds, self.seconds, chosen, self.drive, count)
+        return Run(self.scene, engine, self.seconds, self.seconds, chosen, drive=self.drive, disks=count)
 
 
 def read_grid(path: Path, changes: Mapping[str, Any] | None = None) -> Grid:

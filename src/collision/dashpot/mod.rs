@@ -31,6 +31,9 @@ pub struct Dashpot {
 /// Ratio |u_t / u_n| in units of `max(1, mu/kappa)` from which the first stick is too short to matter.
 const SLIDING_RATIO: f64 = 1e14;
 
+/// What stitching takes for each unit of Omega, in events without it.
+const WORK_OF_STITCHING: f64 = 10.0;
+
 impl Dashpot {
     /// Law of normal stiffness k_n > 0 \[N/m\], normal damping gamma_n >= 0 \[kg/s\], stiffness ratio
     /// kappa = k_t / k_n >= 0 and friction coefficient mu >= 0.
@@ -162,5 +165,10 @@ impl CollisionLaw for Dashpot {
             limit
         };
         -braking * impact.tangential_velocity.signum()
+    }
+
+    /// A skin sticks and slips some Omega times in an impact.
+    fn most_work(&self) -> u64 {
+        (WORK_OF_STITCHING * (1.0 + (3.0 * self.stiffness_ratio).sqrt())) as u64
     }
 }

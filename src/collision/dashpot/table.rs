@@ -17,6 +17,10 @@ use super::{Dashpot, Stitching};
 #[derive(Debug, Clone, PartialEq)]
 pub struct TabulatedDashpot {
     law: Dashpot,
+    /// Every announced mass has its table.
+    complete: bool,
+    /// Impacts stitched to make the tables.
+    samples: usize,
     classes: Vec<Class>,
     /// Open addressing by the bits of the effective mass; `u32::MAX` where free. A power of two long.
     slots: Vec<u32>,
@@ -72,10 +76,15 @@ impl TabulatedDashpot {
         masses.sort_by(f64::total_cmp);
         masses.dedup();
         let mobility = 1.0 + 1.0 / inertia_factor;
-        let classes: Vec<Class> = masses
-            .iter()
-            .filter_map(|mass| Class::new(&law, *mass, mobility))
-            .collect();
+        let (mut classes, mut samples) = (Vec::new(), 0);
+        for mass in masses.iter().rev() {
+            // Damping adds switches. Where the table of a mass has no end, those of lighter ones hardly have one, and to
+            // try each of them would take a second a mass; without a table each impact is stitched.
+            let Some(class) = Class::new(&law, *mass, mobility, &mut samples) else {
+                break;
+            };
+            classes.push(class);
+        }
         let mut slots = vec![u32::MAX; (4 * classes.len()).next_power_of_two().max(4)];
         for (number, class) in (0_u32..).zip(&classes) {
             let mut slot = slot_of(class.effective_mass, slots.len());
@@ -84,7 +93,14 @@ impl TabulatedDashpot {
             }
             slots[slot] = number;
         }
-        Self { law, classes, slots }
+        let complete = !masses.is_empty() && classes.len() == masses.len();
+        Self {
+            law,
+            complete,
+            samples,
+            classes,
+            slots,
+        }
     }
 
     /// The law that is tabulated.
@@ -95,6 +111,11 @@ impl TabulatedDashpot {
     /// Number of cubics held: 48 bytes each.
     pub fn pieces(&self) -> usize {
         self.classes.iter().map(|class| class.pieces.len()).sum()
+    }
+
+    /// Number of impacts that were stitched to make the tables: what they cost.
+    pub fn samples(&self) -> usize {
+        self.samples
     }
 
     /// Tangential restitution e_t at `ratio` = |u_t / u_n| for an announced effective mass \[kg\].
@@ -143,6 +164,10 @@ impl CollisionLaw for TabulatedDashpot {
         }
     }
 
+    fn most_work(&self) -> u64 {
+        if self.complete { 1 } else { self.law.most_work() }
+    }
+
     #[inline]
     fn impulse(&self, impact: &Impact) -> Impulse {
         match self.class(impact.effective_mass) {
@@ -160,7 +185,7 @@ impl CollisionLaw for TabulatedDashpot {
 
 impl Class {
     /// None if the table would have no end.
-    fn new(law: &Dashpot, effective_mass: f64, mobility: f64) -> Option<Self> {
+    fn new(law: &Dashpot, effective_mass: f64, mobility: f64, samples: &mut usize) -> Option<Self> {
         let mut class = Self {
             effective_mass,
             restitution: law.normal_restitution(effective_mass),
@@ -179,7 +204,9 @@ impl Class {
         }
         let stitching = law.stitching(effective_mass, mobility);
         class.ratio_scale = stitching.full_slide().max(law.friction / law.stiffness_ratio);
-        if !class.fit(&stitching) {
+        let (fits, stitched) = class.fit(&stitching);
+        *samples += stitched;
+        if !fits {
             return None;
         }
         let mut piece = 0;
@@ -192,8 +219,8 @@ impl Class {
         Some(class)
     }
 
-    /// Covers [0, 1] with pieces, from left to right; false if that takes too many.
-    fn fit(&mut self, stitching: &Stitching) -> bool {
+    /// Covers [0, 1] with pieces, from left to right; false if that takes too many. And how many impacts were stitched.
+    fn fit(&mut self, stitching: &Stitching) -> (bool, usize) {
         let scale = self.ratio_scale;
         let samples = std::cell::Cell::new(0);
         let sample = |y: f64| {
@@ -211,7 +238,7 @@ impl Class {
         let mut waiting = vec![(sample(0.0), sample(1.0))];
         while let Some((left, right)) = waiting.pop() {
             if samples.get() > MOST_SAMPLES {
-                return false;
+                return (false, samples.get());
             }
             let width = right.y - left.y;
             if width > NARROWEST && left.sequence != right.sequence {
@@ -242,7 +269,7 @@ impl Class {
                 waiting.push((left, middle));
             }
         }
-        true
+        (true, samples.get())
     }
 
     #[inline]

@@ -3,6 +3,7 @@
 //! A new engine is one more implementation, and one more line in [`each_engine`].
 
 use jostle::drive::Sine;
+use jostle::engine::located_dynamics::LocatedDynamics;
 use jostle::engine::molecular_dynamics::{Breakdown, Gear5, Integrator, MolecularDynamics, Setup, VelocityVerlet};
 use jostle::geometry::Disk;
 
@@ -56,16 +57,46 @@ impl<I: Integrator> SoftEngine for MolecularDynamics<I, Sine> {
     }
 }
 
+impl SoftEngine for Located {
+    const METHOD: &'static str = "located events, order 4";
+    const PASSES: f64 = 2.0;
+
+    fn start(setup: Setup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self {
+        let mut engine = Self::new(setup, disks, drive);
+        engine.set_motion(|state| state.rates.copy_from_slice(rates));
+        engine
+    }
+
+    fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
+        Self::advance_to(self, end_time)
+    }
+
+    fn places(&self, count: usize) -> Vec<[f64; 3]> {
+        self.now().places[..count].to_vec()
+    }
+
+    fn first_rate(&self) -> [f64; 3] {
+        self.now().rates[0]
+    }
+
+    fn steps(&self) -> u64 {
+        self.state().steps
+    }
+}
+
 /// Velocity Verlet on a sine.
 pub type Verlet = MolecularDynamics<VelocityVerlet, Sine>;
 /// Gear's method on a sine.
 pub type Gear = MolecularDynamics<Gear5, Sine>;
+/// The fourth-order engine on a sine.
+pub type Located = LocatedDynamics<Sine>;
 
 /// The points that `$point::<Engine>(...)` makes, for each engine.
 macro_rules! each_engine {
     ($points:ident, $point:ident($($argument:expr),*)) => {
         $points.push($point::<$crate::command_line::report::engines::Verlet>($($argument),*));
         $points.push($point::<$crate::command_line::report::engines::Gear>($($argument),*));
+        $points.push($point::<$crate::command_line::report::engines::Located>($($argument),*));
     };
 }
 pub(super) use each_engine;

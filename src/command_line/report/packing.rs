@@ -17,7 +17,7 @@ use jostle::scene::packing::PackingOnSine;
 
 use super::super::Failure;
 use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder, root_mean_square};
-use super::engines::{SoftEngine, Verlet, each_engine};
+use super::engines::{Located, SoftEngine, each_engine};
 
 /// Name of the case.
 pub const NAME: &str = "packing60";
@@ -30,7 +30,7 @@ const AMPLITUDE: f64 = 1.5514e-4;
 const FREQUENCY: f64 = 80.0;
 const GRAVITY: f64 = 9.8;
 /// Time step of the reference \[s\].
-const REFERENCE_STEP: f64 = 2.5e-9;
+const REFERENCE_STEP: f64 = 6.25e-8;
 const QUANTITIES: &[(&str, &str)] = &[
     (
         "angle",
@@ -65,7 +65,7 @@ pub fn cases() -> Vec<Case> {
             "{DISKS} disks in a box on a bottom shaken at {FREQUENCY} Hz, Gamma 4, k_n = 1e4 N/m, mu = 0.1, for {HORIZON} s."
         ),
         setting: "time step [s]",
-        reference: "velocity Verlet at a time step of 2.5 ns",
+        reference: "located events at a time step of 62.5 ns",
         quantities: QUANTITIES,
         points,
     }]
@@ -87,7 +87,7 @@ fn reference() -> Result<&'static Places, Trouble> {
     if let Some(known) = REFERENCE.get() {
         return Ok(known);
     }
-    let (places, _) = run::<Verlet>(REFERENCE_STEP, &mut Stopwatch::default())?;
+    let (places, _) = run::<Located>(REFERENCE_STEP, &mut Stopwatch::default())?;
     Ok(REFERENCE.get_or_init(|| places))
 }
 

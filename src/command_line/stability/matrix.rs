@@ -39,6 +39,7 @@ struct Kind {
 }
 
 const SOFT_PACKING: Kind = kind("packing", "molecular-dynamics", 60, 9.8);
+const LOCATED_PACKING: Kind = kind("packing", "molecular-dynamics-located", 60, 9.8);
 const HARD_PACKING: Kind = kind("packing", "event-driven", 60, 9.8);
 const RANDOM_PACKING: Kind = Kind {
     base: &[("base.model", 1)],
@@ -158,7 +159,7 @@ impl Kind {
 /// Everything but the long runs.
 pub fn all() -> Vec<Probe> {
     let mut probes = Vec::new();
-    for packing in [SOFT_PACKING, HARD_PACKING, RANDOM_PACKING] {
+    for packing in [SOFT_PACKING, LOCATED_PACKING, HARD_PACKING, RANDOM_PACKING] {
         probes.extend(packings(packing));
     }
     for wedge in [MAP, HARD_WEDGE, SOFT_WEDGE] {

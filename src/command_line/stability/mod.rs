@@ -12,9 +12,9 @@ use std::time::Instant;
 
 use clap::Args;
 use jostle::scene::Scene;
+use jostle::scene::catalogue::{Visitor, with_scene};
 
 use super::Failure;
-use super::scenes::{Visitor, with_scene};
 use judge::{Judged, judge};
 use matrix::Probe;
 

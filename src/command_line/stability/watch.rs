@@ -147,7 +147,7 @@ impl<S: Scene> Watch<S> {
         }
         // Rounding of the potential energy counts too.
         let rounding = 1e-13 * (self.start.total.abs() + now.total.abs());
-        let soft = probe.engine == "molecular-dynamics";
+        let soft = probe.engine.starts_with("molecular-dynamics");
         let [created, off] = if soft { SOFT_SHARES } else { HARD_SHARES };
         let error = (residual.abs() - rounding).max(0.0) / self.scale;
         self.energy_error = self.energy_error.max(error);
@@ -194,7 +194,7 @@ impl<S: Scene> Watch<S> {
             .flatten()
             .fold(0.0, |most: f64, part| most.max(part.abs()))
             + base.abs();
-        let soft = probe.engine == "molecular-dynamics";
+        let soft = probe.engine.starts_with("molecular-dynamics");
         let allowed = if soft {
             0.5 * smallest
         } else {

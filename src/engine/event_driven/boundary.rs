@@ -44,6 +44,11 @@ pub trait Boundary: Clone + PartialEq + Serialize + DeserializeOwned + Send + 's
 
     /// How many walls there are.
     fn count(&self) -> u32;
+
+    /// What a prediction may cost for a disk of this radius \[m\], beside the work of an event.
+    fn most_work(&self, _radius: f64) -> u64 {
+        0
+    }
 }
 
 /// No walls: a periodic cell.

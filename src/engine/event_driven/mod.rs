@@ -21,6 +21,7 @@ mod space;
 mod state;
 mod walls;
 
+use super::Work;
 use crate::collision::CollisionLaw;
 use crate::geometry::Disk;
 
@@ -30,7 +31,7 @@ pub use field::{Field, Gravity, Weightless};
 pub use observer::{Observer, Unobserved};
 pub use sawtooth::Sawtooth;
 pub use space::{Open, Periodic, PeriodicAcross, Space};
-pub use state::{Counts, NoHeadway, Partner, State};
+pub use state::{Counts, NoHeadway, Partner, State, Stop};
 pub use walls::{AtRandomPhase, Moving, VibratingBase, Walls};
 
 use prediction::Candidate;
@@ -62,6 +63,7 @@ pub struct EventDriven<L, B, F, S> {
     near: Vec<Candidate>,
     /// 1/l with the moment of inertia `l m R^2`.
     inverse_inertia_factor: f64,
+    work_of_event: u64,
 }
 
 /// How a run is set up, besides its types.
@@ -121,7 +123,9 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             shells: Shells::new(&space, disks, masses, settings.shell),
         };
         let near = vec![Candidate::default(); 64];
+        let largest = disks.iter().map(|disk| disk.radius).fold(0.0, f64::max);
         let mut engine = Self {
+            work_of_event: law.most_work() + state.boundary.most_work(largest),
             law,
             field,
             space,
@@ -140,8 +144,8 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     /// Handles all events up to `end_time` \[s\].
     ///
     /// # Errors
-    /// The run makes no headway.
-    pub fn advance_to(&mut self, end_time: f64) -> Result<(), NoHeadway> {
+    /// The run makes no headway, or there are more events than one call may handle; the state is then of no use.
+    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stop> {
         self.advance_observed(end_time, &mut Unobserved)
     }
 
@@ -149,8 +153,16 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     /// shown by [`Self::show_flights`].
     ///
     /// # Errors
-    /// The run makes no headway.
-    pub fn advance_observed(&mut self, end_time: f64, observer: &mut impl Observer) -> Result<(), NoHeadway> {
+    /// As [`Self::advance_to`].
+    pub fn advance_observed(&mut self, end_time: f64, observer: &mut impl Observer) -> Result<(), Stop> {
+        self.advance_within(end_time, observer, &mut Work::default())
+    }
+
+    /// As [`Self::advance_observed`], with the work that it takes taken off `work`.
+    ///
+    /// # Errors
+    /// As [`Self::advance_to`].
+    pub fn advance_within(&mut self, end_time: f64, observer: &mut impl Observer, work: &mut Work) -> Result<(), Stop> {
         loop {
             let end = end_time - self.state.epoch;
             let bodies = &self.state.bodies;
@@ -160,8 +172,12 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             if time > end {
                 return Ok(());
             }
+            if !work.spend(self.work_of_event) {
+                let (time, most) = (self.state.epoch + time, work.most() / self.work_of_event);
+                return Err(Stop::TooManyEvents { time, most });
+            }
             self.calendar.pop();
-            self.resolve(disk, time, observer)?;
+            self.resolve(disk, time, observer).map_err(Stop::NoHeadway)?;
             if time > EPOCH {
                 self.begin_epoch();
                 observer.shift(EPOCH);

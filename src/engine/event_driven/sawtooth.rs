@@ -219,4 +219,9 @@ where
     fn count(&self) -> u32 {
         2
     }
+
+    /// Each tooth within reach is looked at.
+    fn most_work(&self, radius: f64) -> u64 {
+        (radius / self.profile.width()) as u64
+    }
 }

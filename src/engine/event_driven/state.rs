@@ -13,6 +13,20 @@ const FARTHEST: f64 = 1e12;
 
 /// What stopped a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stop {
+    /// Events follow each other so fast that time stands still.
+    NoHeadway(NoHeadway),
+    /// One call had more events to handle than it may.
+    TooManyEvents {
+        /// Time reached \[s\].
+        time: f64,
+        /// Events that one call may handle.
+        most: u64,
+    },
+}
+
+/// Where time stands still.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoHeadway {
     /// Time \[s\].
     pub time: f64,

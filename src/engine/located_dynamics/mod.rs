@@ -39,8 +39,8 @@ use laws::Laws;
 use search::Search;
 use step::{Scenery, Work};
 
-/// Largest number of time steps that one call may ask for.
-const MOST_STEPS: f64 = 1e11;
+/// Work of a time step of one disk.
+const WORK_OF_STEP: f64 = 1.0;
 
 /// Grid points closer than this fraction of a time step to the end count as the end.
 const SNAP: f64 = 1e-6;
@@ -126,13 +126,25 @@ impl<D: Drive> LocatedDynamics<D> {
     }
 
     /// Advances to `end_time` \[s\]. On a breakdown the state is as before the call.
+    ///
+    /// # Errors
+    /// What stops a run, or more steps than one call may do.
     pub fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
+        self.advance_within(end_time, &mut super::Work::default())
+    }
+
+    /// As [`Self::advance_to`], with the work that it takes taken off `work`.
+    ///
+    /// # Errors
+    /// As [`Self::advance_to`].
+    pub fn advance_within(&mut self, end_time: f64, work: &mut super::Work) -> Result<(), Breakdown> {
         let elapsed = (end_time - self.setup.start_time) / self.setup.time_step;
         let target = (elapsed + SNAP).floor().max(0.0);
         let steps = target - self.state.steps as f64;
-        if steps > MOST_STEPS {
-            let time = self.time();
-            return Err(Breakdown::TooManySteps { time, steps });
+        let work_of_step = WORK_OF_STEP * self.radii().len() as f64;
+        if !work.spend((steps.max(0.0) * work_of_step) as u64) {
+            let (time, most) = (self.time(), work.most() as f64 / work_of_step);
+            return Err(Breakdown::TooManySteps { time, steps, most });
         }
         self.backup.clone_from(&self.state);
         let outcome = self

@@ -17,6 +17,7 @@ mod two_contacts;
 
 use std::marker::PhantomData;
 
+use super::Work;
 use crate::drive::{Drive, Motion};
 use crate::error::are_sane;
 use crate::geometry::Disk;
@@ -33,8 +34,8 @@ use forces::{Bodies, Tally, at_walls, between_disks};
 use neighbours::{Cloud, Neighbours, farthest_squared, inner_margin};
 use two_contacts::{Laws, Sums};
 
-/// Largest number of time steps that one call may ask for: about a day of a small scene.
-const MOST_STEPS: f64 = 1e11;
+/// Work of a time step of one disk.
+const WORK_OF_STEP: f64 = 0.1;
 
 /// Grid points closer than this fraction of a time step to the end count as the end.
 const SNAP: f64 = 1e-6;
@@ -176,15 +177,28 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     }
 
     /// Advances to `end_time` \[s\]. On a breakdown the state is as before the call.
+    ///
+    /// # Errors
+    /// What stops a run, or more steps than one call may do.
     pub fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
+        self.advance_within(end_time, &mut Work::default())
+    }
+
+    /// As [`Self::advance_to`], with the work that it takes taken off `work`.
+    ///
+    /// # Errors
+    /// As [`Self::advance_to`].
+    pub fn advance_within(&mut self, end_time: f64, work: &mut Work) -> Result<(), Breakdown> {
         let step = self.setup.time_step;
         let elapsed = (end_time - self.setup.start_time) / step;
         let target = (elapsed + SNAP).floor().max(0.0);
         let asked = target - self.state.steps as f64;
-        if asked > MOST_STEPS {
+        let work_of_step = WORK_OF_STEP * self.radii.len() as f64;
+        if !work.spend((asked.max(0.0) * work_of_step) as u64) {
             return Err(Breakdown::TooManySteps {
                 time: self.time(),
                 steps: asked,
+                most: work.most() as f64 / work_of_step,
             });
         }
         self.backup.clone_from(&self.state);

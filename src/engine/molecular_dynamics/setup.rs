@@ -53,5 +53,7 @@ pub enum Breakdown {
         time: f64,
         /// Steps asked for.
         steps: f64,
+        /// Steps that one call may do.
+        most: f64,
     },
 }

@@ -13,6 +13,7 @@ mod base;
 mod frame;
 mod state;
 
+use super::Work;
 use crate::collision::{CollisionLaw, Impact, tangential_mass};
 use crate::drive::Motion;
 use crate::geometry::Flight;
@@ -34,7 +35,21 @@ pub struct Setup {
     pub slow: f64,
 }
 
-/// What stopped a run: the disk no longer gets off the walls.
+/// What stopped a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stop {
+    /// The disk no longer gets off the walls.
+    Stuck(Stuck),
+    /// One call had more impacts to do than it may.
+    TooManyImpacts {
+        /// Time reached \[s\].
+        time: f64,
+        /// Impacts that one call may do.
+        most: u64,
+    },
+}
+
+/// Where the disk no longer gets off the walls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stuck {
     /// Time \[s\].
@@ -59,6 +74,7 @@ pub struct DiskInWedge<L, B> {
     law: L,
     tangential_mass: f64,
     state: State<B>,
+    work_of_impact: u64,
 }
 
 impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
@@ -90,6 +106,7 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
         };
         let mut engine = Self {
             setup,
+            work_of_impact: law.most_work(),
             law,
             tangential_mass: tangential_mass(1.0, 0.0, 2.0, 0.0),
             state,
@@ -101,10 +118,23 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
     /// Does all impacts up to `end_time` \[s\].
     ///
     /// # Errors
-    /// The disk is stuck; the state is then that of the last impact and of no use.
-    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stuck> {
+    /// The disk is stuck, or there are more impacts than one call may do; the state is then that of the last impact and
+    /// of no use.
+    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stop> {
+        self.advance_within(end_time, &mut Work::default())
+    }
+
+    /// As [`Self::advance_to`], with the work that it takes taken off `work`.
+    ///
+    /// # Errors
+    /// As [`Self::advance_to`].
+    pub fn advance_within(&mut self, end_time: f64, work: &mut Work) -> Result<(), Stop> {
         while self.state.time + self.state.delay <= end_time {
-            self.next_impact()?;
+            if !work.spend(self.work_of_impact) {
+                let (time, most) = (self.state.time, work.most() / self.work_of_impact);
+                return Err(Stop::TooManyImpacts { time, most });
+            }
+            self.next_impact().map_err(Stop::Stuck)?;
         }
         Ok(())
     }

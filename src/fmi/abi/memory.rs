@@ -91,7 +91,7 @@ pub unsafe fn text(pointer: *const c_char, name: &str) -> Result<String> {
     bytes
         .to_str()
         .map(String::from)
-        .map_err(|_| Error::call(format!("{name} is not UTF-8"), "Pass UTF-8, as the standard asks."))
+        .map_err(|_| Error::call(format!("{name} is not UTF-8"), "Pass UTF-8."))
 }
 
 /// Refuses arrays of other lengths than the standard's.

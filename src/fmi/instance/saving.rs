@@ -6,7 +6,7 @@ use super::Instance;
 use crate::error::{Error, Result};
 use crate::fmi::life_cycle::{Call, Phase};
 use crate::fmi::snapshot::{Clock, Snapshot};
-use crate::scene::{Causality, Scene, Value, Values};
+use crate::scene::Scene;
 
 impl<S: Scene> Instance<S> {
     /// Saves everything that may change.
@@ -38,7 +38,8 @@ impl<S: Scene> Instance<S> {
                 self.stale = true;
             }
             Some(state) => {
-                let same = !self.stale && self.clock.start == snapshot.clock.start && self.same_parameters(&values);
+                let same =
+                    !self.stale && self.clock.start == snapshot.clock.start && self.values.same_parameters(&values);
                 match self.scene.as_mut().filter(|_| same) {
                     Some(scene) => scene.restore(state)?,
                     None => {
@@ -83,18 +84,5 @@ impl<S: Scene> Instance<S> {
             "its phase or times are impossible",
             "Pass a state that saving gave.",
         ))
-    }
-
-    /// Bit by bit, since a scene may tell 0.0 from -0.0.
-    fn same_parameters(&self, others: &Values) -> bool {
-        let bits = |value: &Value| match value {
-            Value::Real(real) => real.to_bits(),
-            Value::Integer(integer) => *integer as u64,
-        };
-        let rows = self.values.table().rows().iter();
-        let pairs = self.values.as_slice().iter().zip(others.as_slice());
-        rows.zip(pairs)
-            .filter(|(row, _)| row.causality == Causality::Parameter)
-            .all(|(_, (one, other))| bits(one) == bits(other))
     }
 }

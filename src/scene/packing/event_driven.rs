@@ -5,7 +5,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::drive::FollowsInput;
-use crate::engine::event_driven::{Moving, NoHeadway, Partner};
+use crate::engine::event_driven::{Moving, Partner, Stop};
+use crate::engine::{MOST_WORK_IN_A_CALL, Work};
 use crate::error::{Error, Result, are_sane};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::hard_disks::{Energies, Matter, Report};
@@ -28,6 +29,8 @@ pub struct HardPacking<R> {
     masses: Vec<f64>,
     radii: Vec<f64>,
     gravity: f64,
+    /// Work that one call may do.
+    most_work: u64,
     report: Report,
 }
 
@@ -72,7 +75,13 @@ impl<R: HardRun> HardPacking<R> {
     }
 }
 
-fn refusal(stop: NoHeadway) -> Error {
+fn refusal(stop: Stop) -> Error {
+    let stop = match stop {
+        Stop::NoHeadway(stop) => stop,
+        Stop::TooManyEvents { time, most } => {
+            return Error::too_much_work(NAME, time, format!("more than {most} events"));
+        }
+    };
     let (disk, partner) = (stop.last.0 + 1, stop.last.1);
     let partner = match partner {
         Partner::Disk(other) => format!("disk {}", other + 1),
@@ -133,6 +142,7 @@ impl<R: HardRun> Scene for HardPacking<R> {
             radii,
             gravity: values.real("gravity"),
             report: Report::at_start(start_time),
+            most_work: MOST_WORK_IN_A_CALL,
         };
         packing.report.start_energy = packing.energies().total();
         Ok(packing)
@@ -142,7 +152,7 @@ impl<R: HardRun> Scene for HardPacking<R> {
         let backup = self.run.state();
         let (from, impulse) = (self.report.time, self.run.counts().base_impulse);
         self.run.aim(from, end_time - from, values);
-        if let Err(stop) = self.run.advance_to(end_time) {
+        if let Err(stop) = self.run.advance_to(end_time, &mut Work::at_most(self.most_work)) {
             self.run.restore(&backup);
             return Err(refusal(stop));
         }
@@ -162,6 +172,10 @@ impl<R: HardRun> Scene for HardPacking<R> {
             ..self.report
         };
         Ok(())
+    }
+
+    fn limit_work(&mut self, most: u64) {
+        self.most_work = most;
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {

@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::collision::{ContactTime, Dashpot, TabulatedDashpot, effective_mass};
 use crate::drive::{Motion, RandomPhase, Sine};
+use crate::engine::Work;
 use crate::engine::event_driven::{
-    AtRandomPhase, Counts, EventDriven, Gravity, Moving, NoHeadway, Open, Settings, State, Walls,
+    AtRandomPhase, Counts, EventDriven, Gravity, Moving, Open, Settings, State, Stop, Unobserved, Walls,
 };
 use crate::error::{Error, Result};
 use crate::geometry::{Disk, Wall};
@@ -47,8 +48,8 @@ pub trait HardRun: Sized + Send + 'static {
     /// Handles all events up to `end_time` \[s\].
     ///
     /// # Errors
-    /// No headway.
-    fn advance_to(&mut self, end_time: f64) -> std::result::Result<(), NoHeadway>;
+    /// No headway, or too many events.
+    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> std::result::Result<(), Stop>;
     /// Place, velocity, angle and angular velocity of a disk at `time` \[s\].
     fn seen(&self, disk: usize, time: f64) -> ([f64; 2], [f64; 2], f64, f64);
     /// Sums since the start.
@@ -181,8 +182,8 @@ impl<W: HardBase> HardRun for HardDisks<W> {
         }
     }
 
-    fn advance_to(&mut self, end_time: f64) -> std::result::Result<(), NoHeadway> {
-        Self::advance_to(self, end_time)
+    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> std::result::Result<(), Stop> {
+        self.advance_within(end_time, &mut Unobserved, work)
     }
 
     fn seen(&self, disk: usize, time: f64) -> ([f64; 2], [f64; 2], f64, f64) {
@@ -266,8 +267,8 @@ impl HardRun for EitherModel {
 
     fn aim(&mut self, _time: f64, _duration: f64, _values: &Values) {}
 
-    fn advance_to(&mut self, end_time: f64) -> std::result::Result<(), NoHeadway> {
-        either!(self, run => run.advance_to(end_time))
+    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> std::result::Result<(), Stop> {
+        either!(self, run => HardRun::advance_to(&mut **run, end_time, work))
     }
 
     fn seen(&self, disk: usize, time: f64) -> ([f64; 2], [f64; 2], f64, f64) {

@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::drive::Motion;
+use crate::engine::Work;
 use crate::engine::located_dynamics::{self, LocatedDynamics};
 use crate::engine::molecular_dynamics::{
     self, Breakdown, ContactLaws, Energies, Integrator, MolecularDynamics, Setup, TimeStepLimits,
@@ -54,11 +55,11 @@ pub trait SoftEngine: Sized + Send + 'static {
     fn new(setup: Setup, disks: &[Disk], drive: Self::Drive) -> Self;
     /// The drive, to be aimed.
     fn drive_mut(&mut self) -> &mut Self::Drive;
-    /// Advances to `end_time` \[s\]; on a breakdown nothing has changed.
+    /// Advances to `end_time` \[s\] with the work that it takes taken off `work`; on a breakdown nothing has changed.
     ///
     /// # Errors
     /// The step cannot be done.
-    fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown>;
+    fn advance_within(&mut self, end_time: f64, work: &mut Work) -> Result<(), Breakdown>;
     /// Disks and base at the time last asked for.
     fn look(&self) -> Look<'_>;
     /// Energies at that time.
@@ -87,8 +88,8 @@ macro_rules! same_by_name {
             Self::drive_mut(self)
         }
 
-        fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
-            Self::advance_to(self, end_time)
+        fn advance_within(&mut self, end_time: f64, work: &mut Work) -> Result<(), Breakdown> {
+            Self::advance_within(self, end_time, work)
         }
 
         fn energies(&self) -> Energies {

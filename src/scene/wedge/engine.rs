@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::drive::Motion;
+use crate::engine::Work;
 use crate::error::{Result, are_sane};
 use crate::scene::{OutputWriter, Values, Variable};
 
@@ -93,11 +94,11 @@ pub trait Engine: Sized + Send + 'static {
     /// Takes the inputs at `time` \[s\] for a step of `duration` \[s\].
     fn aim(&mut self, time: f64, duration: f64, values: &Values);
 
-    /// Advances to `end_time` \[s\].
+    /// Advances to `end_time` \[s\] with the work that it takes taken off `work`.
     ///
     /// # Errors
     /// It cannot be done; the state is then of no use.
-    fn advance_to(&mut self, end_time: f64) -> Result<()>;
+    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()>;
 
     /// Disk and base at `time` \[s\], to which it was advanced last.
     fn look(&self, time: f64) -> Look;

@@ -8,7 +8,8 @@ use rand_pcg::Pcg64;
 use crate::collision::{CollisionLaw, Dashpot, TabulatedDashpot, VelocityFloor};
 use crate::contact::LinearDashpot;
 use crate::drive::{FirstHit, RandomPhase, Sine};
-use crate::engine::wedge::{DiskInWedge, Moving, NO_PROGRESS, Resting, Setup, Side, State, Stuck, WallMotion};
+use crate::engine::Work;
+use crate::engine::wedge::{DiskInWedge, Moving, NO_PROGRESS, Resting, Setup, Side, State, Stop, Stuck, WallMotion};
 use crate::error::{Error, Result};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::{Kind, OutputWriter, Unit, Values, Variable};
@@ -66,13 +67,18 @@ fn counted(count: u64) -> i64 {
     count.min(i32::MAX as u64) as i64
 }
 
-fn refusal(stuck: Stuck, remedy: &str) -> Error {
+fn refusal(stop: Stop, remedy: &str) -> Error {
     let Stuck {
         time,
         side,
         along,
         collisions,
-    } = stuck;
+    } = match stop {
+        Stop::Stuck(stuck) => stuck,
+        Stop::TooManyImpacts { time, most } => {
+            return Error::too_much_work(NAME, time, format!("more than {most} collisions"));
+        }
+    };
     let wall = match side {
         Side::Left => "left",
         Side::Right => "right",
@@ -179,10 +185,10 @@ impl Engine for Map {
 
     fn aim(&mut self, _time: f64, _duration: f64, _values: &Values) {}
 
-    fn advance_to(&mut self, end_time: f64) -> Result<()> {
+    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()> {
         self.0
-            .advance_to(end_time)
-            .map_err(|stuck| refusal(stuck, "Raise collision.restitution or drive.amplitude."))
+            .advance_within(end_time, work)
+            .map_err(|stop| refusal(stop, "Raise collision.restitution or drive.amplitude."))
     }
 
     fn look(&self, time: f64) -> Look {
@@ -248,9 +254,11 @@ impl<D: BaseDrive + FirstHit> Engine for EventDriven<D> {
         }
     }
 
-    fn advance_to(&mut self, end_time: f64) -> Result<()> {
+    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()> {
         let remedy = format!("Inelastic collapse? Raise {FLOOR} or collision.restitution.");
-        self.0.advance_to(end_time).map_err(|stuck| refusal(stuck, &remedy))
+        self.0
+            .advance_within(end_time, work)
+            .map_err(|stop| refusal(stop, &remedy))
     }
 
     fn look(&self, time: f64) -> Look {

@@ -36,6 +36,7 @@ pub fn drive<D: BaseDrive>() -> Vec<Variable> {
     rows
 }
 
+#[allow(clippy::approx_constant)] // 3.14 rad is 179.9 degrees: a bound just below pi
 fn geometry() -> Vec<Variable> {
     vec![
         Variable::parameter(

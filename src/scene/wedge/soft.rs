@@ -5,6 +5,7 @@ use rand_pcg::Pcg64;
 
 use crate::contact::{ElasticSkin, LinearDashpot};
 use crate::drive::Motion;
+use crate::engine::Work;
 use crate::engine::molecular_dynamics::{
     Breakdown, ContactLaws, Integrator, MolecularDynamics, Setup, State, TimeStepLimits,
 };
@@ -134,8 +135,8 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
         self.engine.drive_mut().aim(time, duration, values);
     }
 
-    fn advance_to(&mut self, end_time: f64) -> Result<()> {
-        self.engine.advance_to(end_time).map_err(refusal)
+    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()> {
+        self.engine.advance_within(end_time, work).map_err(refusal)
     }
 
     fn look(&self, _time: f64) -> Look {

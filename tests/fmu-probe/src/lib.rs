@@ -13,6 +13,8 @@ const TIME_STEP: f64 = 1e-3;
 /// Communication points carry the importer's rounding: a grid point that is late by this part of a step counts as reached.
 const GRID_TOLERANCE: f64 = 1e-6;
 const GRAVITY: f64 = 9.8;
+/// Time steps that one call may ask for: a step of 100 s.
+const MOST_STEPS: f64 = 1e5;
 const PATTERNS: &[(&str, &str)] = &[
     ("random", "With velocities that the seed decides."),
     ("at_rest", "Without velocity, < 1 m/s."),
@@ -214,6 +216,11 @@ impl Probe {
             });
         }
         assert!(end_time <= self.panic_time, "told to panic at {} s", self.panic_time);
+        let now = self.start + self.state.steps as f64 * TIME_STEP;
+        let asked = (end_time - now) / TIME_STEP;
+        if asked > MOST_STEPS {
+            return Err(Error::too_much_work("probe", now, format!("{asked:e} time steps")));
+        }
         Ok(())
     }
 

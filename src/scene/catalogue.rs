@@ -1,17 +1,17 @@
-//! The scenes that the command line knows. A new scene is one line in [`with_scene`]'s table.
+//! All scenes by name, for programs that choose one at run time: the command line and the C library.
+//!
+//! A new scene is one line in [`with_scene`]'s table. Whoever names a scene's type needs nothing of this.
 
-use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
-use jostle::scene::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
-use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
-use jostle::scene::three_disk::{
-    ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
-};
-use jostle::scene::wedge::{
+use super::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
+use super::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
+use super::ratchet::{RatchetOnInput, RatchetOnSine};
+use super::three_disk::{ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine};
+use super::wedge::{
     WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
     WedgeMolecularDynamicsOnSine,
 };
-use jostle::scene::{Card, Scene};
-use jostle::{Error, Result};
+use super::{Card, Scene};
+use crate::error::{Error, Result};
 
 /// Something to do with a scene whose type is found by name.
 pub trait Visitor {
@@ -25,7 +25,7 @@ pub trait Visitor {
 macro_rules! scenes {
     ($($scene:ty,)*) => {
         /// All cards. The first engine of a scene is its default, and the first drive of an engine.
-        fn cards() -> Vec<Card> {
+        pub fn cards() -> Vec<Card> {
             vec![$(<$scene>::card()),*]
         }
 
@@ -76,13 +76,13 @@ fn find(cards: &[Card], name: &str, engine: Option<&str>, drive: Option<&str>) -
     let engine = engine.unwrap_or(first.engine);
     let of_engine: Vec<&&Card> = of_scene.iter().filter(|card| card.engine == engine).collect();
     let Some(first) = of_engine.first() else {
-        return Err(unknown("--engine", engine, of_scene.iter().map(|card| card.engine)));
+        return Err(unknown("engine", engine, of_scene.iter().map(|card| card.engine)));
     };
     let drive = drive.unwrap_or(first.drive);
     cards
         .iter()
         .position(|card| (card.scene, card.engine, card.drive) == (name, engine, drive))
-        .ok_or_else(|| unknown("--drive", drive, of_engine.iter().map(|card| card.drive)))
+        .ok_or_else(|| unknown("drive", drive, of_engine.iter().map(|card| card.drive)))
 }
 
 /// `sine` if this scene and engine know it: what a run without an importer needs.

@@ -1,0 +1,30 @@
+//! Random sequences of calls of all functions of the C library: a short run of what `fuzz/run` does for hours, and the
+//! inputs that it has found worth keeping.
+#![allow(unsafe_code, dead_code, clippy::undocumented_unsafe_blocks)]
+
+#[path = "../../fuzz/harness/c_calls.rs"]
+mod c_calls;
+#[path = "../../fuzz/harness/hand.rs"]
+mod hand;
+
+use proptest::prelude::*;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn any_sequence_of_calls_is_answered(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        c_calls::run(&bytes);
+    }
+}
+
+#[test]
+fn the_corpus_is_answered() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/corpus/c_library");
+    let mut inputs = 0;
+    for file in std::fs::read_dir(folder).expect("the corpus") {
+        c_calls::run(&std::fs::read(file.expect("a file").path()).expect("readable"));
+        inputs += 1;
+    }
+    assert!(inputs > 20, "{inputs} inputs");
+}

@@ -1,0 +1,197 @@
+//! Random calls of all functions of both versions of FMI, on a few instances at once.
+//!
+//! Bytes in, calls out. What is checked beyond what sanitizers see: a call from inside a callback is refused; statuses are
+//! OK, Discard or Error; an instance that a careless caller has ruined is as a new one after a reset.
+
+use std::cell::Cell;
+use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ptr::null_mut;
+
+use jostle::fmi::abi::common::{Opaque, Status};
+use jostle::fmi::abi::fmi2::CallbackFunctions;
+use jostle::fmi::token;
+use jostle::scene::{Choice, Scene};
+
+use super::hand::{Hand, count, report_defects};
+
+/// An instance as its importer sees it: given to the library as the environment of its callbacks.
+pub struct Slot {
+    pub pointer: Cell<Opaque>,
+    pub three: Cell<bool>,
+    callbacks: Cell<*mut CallbackFunctions>,
+}
+
+/// What a run has at hand besides numbers.
+pub struct Importer<'a> {
+    pub hand: Hand<'a>,
+    pub slots: Vec<Box<Slot>>,
+    pub states: [Opaque; 6],
+    pub saved: Vec<u8>,
+    /// Longest step that is still done in little time \[s\]; longer ones only if the scene refuses them at once.
+    pub longest_step: f64,
+}
+
+impl<'a> Importer<'a> {
+    pub fn new<S: Scene>(bytes: &'a [u8], disks: u32, longest_step: f64) -> Self {
+        report_defects();
+        let (card, choice) = (S::card(), Choice { disks });
+        let rows = S::variables(choice);
+        let token = token::write(&card, choice, &rows);
+        let texts = [
+            token.as_str(),
+            token.as_str(),
+            "name",
+            "",
+            "logStatusError",
+            "logEvents",
+            "jostle:",
+        ];
+        let mut texts: Vec<_> = texts
+            .iter()
+            .map(|text| CString::new(*text).expect("no zero byte"))
+            .collect();
+        texts.push(CString::new([0xff_u8, 0xfe]).expect("no zero byte"));
+        let slot = || {
+            Box::new(Slot {
+                pointer: Cell::new(null_mut()),
+                three: Cell::new(false),
+                callbacks: Cell::new(null_mut()),
+            })
+        };
+        Self {
+            hand: Hand::new(bytes, rows.len() as u32, texts),
+            slots: (0..3).map(|_| slot()).collect(),
+            states: [null_mut(); 6],
+            saved: Vec::new(),
+            longest_step,
+        }
+    }
+
+    /// The token.
+    pub fn first_text(&self) -> *const c_char {
+        self.hand.first_text()
+    }
+
+    /// One of the instances, or null, or memory that is no instance.
+    pub fn instance(&mut self) -> Opaque {
+        static NOTHING: [u64; 64] = [0; 64];
+        match self.hand.below(32) {
+            0 => null_mut(),
+            1 => NOTHING.as_ptr().cast_mut().cast(),
+            2 => self.slots[0]
+                .pointer
+                .get()
+                .wrapping_byte_add(usize::from(!self.slots[0].pointer.get().is_null())),
+            index => self.slots[index % 3].pointer.get(),
+        }
+    }
+
+    /// A state, stale or foreign ones among them, or a number that is none.
+    pub fn state(&mut self) -> Opaque {
+        match self.hand.below(8) {
+            index if index < 6 => self.states[index],
+            6 => std::ptr::without_provenance_mut(self.hand.word() as usize),
+            _ => null_mut(),
+        }
+    }
+
+    /// A step, mostly short.
+    pub fn step(&mut self) -> f64 {
+        let step = self.hand.real();
+        if step.is_finite() && step > self.longest_step {
+            self.longest_step
+        } else {
+            step
+        }
+    }
+
+    pub fn state_slot(&mut self) -> *mut Opaque {
+        let index = self.hand.below(6);
+        let pointer = &raw mut self.states[index];
+        self.hand.spoil(pointer)
+    }
+}
+
+/// Whether a status is one that this library gives.
+pub fn check(status: Status) {
+    count();
+    assert!(
+        matches!(status, Status::Ok | Status::Discard | Status::Error),
+        "{status:?}"
+    );
+}
+
+/// Reads a log message and calls back from inside the call, which must be refused.
+unsafe fn listen(environment: *mut c_void, category: *const c_char, message: *const c_char, three: bool) {
+    // SAFETY: the library passes texts and the environment that it was given.
+    unsafe {
+        assert!(
+            CStr::from_ptr(category)
+                .to_str()
+                .is_ok_and(|text| text.starts_with("log"))
+        );
+        assert!(CStr::from_ptr(message).to_str().is_ok_and(|text| text.len() > 10));
+        let slot = &*environment.cast::<Slot>();
+        if slot.pointer.get().is_null() || slot.three.get() != three {
+            return; // instantiation is still under way, or this slot has been given to another instance
+        }
+        CALL_BACK.with(|call| {
+            if let Some(call) = call.get() {
+                assert_eq!(call(slot), Status::Error, "a call from inside a callback");
+            }
+        });
+    }
+}
+
+thread_local! {
+    pub static CALL_BACK: Cell<Option<unsafe fn(&Slot) -> Status>> = const { Cell::new(None) };
+}
+
+pub unsafe extern "C" fn log3(environment: *mut c_void, _: c_int, category: *const c_char, message: *const c_char) {
+    // SAFETY: passed on.
+    unsafe { listen(environment, category, message, true) }
+}
+
+unsafe extern "C" fn log2(
+    environment: *mut c_void,
+    name: *const c_char,
+    _: c_int,
+    category: *const c_char,
+    message: *const c_char,
+) {
+    // SAFETY: passed on.
+    unsafe {
+        assert!(CStr::from_ptr(name).to_str().is_ok());
+        listen(environment, category, message, false);
+    }
+}
+
+impl Slot {
+    pub fn environment(&self) -> Opaque {
+        std::ptr::from_ref(self).cast_mut().cast()
+    }
+
+    /// Callbacks of FMI 2.0, alive as long as the instance.
+    pub fn callbacks(&self) -> *mut CallbackFunctions {
+        type Plain = unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char);
+        self.drop_callbacks();
+        let callbacks = Box::new(CallbackFunctions {
+            // SAFETY: the library passes no further argument, so that a variadic function is called alike.
+            logger: Some(unsafe { std::mem::transmute::<Plain, jostle::fmi::abi::logger::Fmi2Log>(log2) }),
+            allocate_memory: None,
+            free_memory: None,
+            step_finished: None,
+            component_environment: self.environment(),
+        });
+        self.callbacks.set(Box::into_raw(callbacks));
+        self.callbacks.get()
+    }
+
+    pub fn drop_callbacks(&self) {
+        let old = self.callbacks.replace(null_mut());
+        if !old.is_null() {
+            // SAFETY: made by `Box::into_raw` above.
+            drop(unsafe { Box::from_raw(old) });
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! What a careless caller has at hand: numbers, texts and pointers, drawn from the fuzzer's bytes.
+//!
+//! Pointers are null, misaligned, or to buffers as long as any length that is passed with them; a length that no memory has
+//! is passed too. That is all a C caller can get wrong short of lying about memory, which no library can see.
+
+use std::ffi::{CString, c_char};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Elements of every buffer.
+pub const LONGEST: usize = 16;
+
+static CALLS: AtomicU64 = AtomicU64::new(0);
+
+/// Counts a call into the library under test and says how many there were, now and then.
+pub fn count() {
+    let calls = CALLS.fetch_add(1, Ordering::Relaxed) + 1;
+    if calls.is_multiple_of(100_000) {
+        eprintln!("calls: {calls}");
+    }
+}
+
+/// Panics that a scene was told to do are none to report; any other ends the process, though the boundary catches it.
+pub fn report_defects() {
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        std::panic::set_hook(Box::new(|panic| {
+            let told = panic.payload().downcast_ref::<String>();
+            if !told.is_some_and(|text| text.starts_with("told to panic")) {
+                eprintln!("DEFECT: {panic}");
+                std::process::abort();
+            }
+        }));
+    });
+}
+
+/// Buffers that pointers lead to. Behind a raw pointer, since several are lent to one call.
+pub struct Buffers {
+    pub references: [u32; LONGEST],
+    pub reals: [f64; LONGEST],
+    pub integers: [i32; LONGEST],
+    pub longs: [i64; LONGEST],
+    pub sizes: [usize; LONGEST],
+    pub texts: [*const c_char; LONGEST],
+    pub bytes: [u8; 8 * LONGEST],
+}
+
+pub struct Hand<'a> {
+    rest: &'a [u8],
+    buffers: *mut Buffers,
+    texts: Vec<CString>,
+    /// Variables of the scene.
+    variables: u32,
+}
+
+impl Drop for Hand<'_> {
+    fn drop(&mut self) {
+        // SAFETY: made by `Box::into_raw` in `new`.
+        drop(unsafe { Box::from_raw(self.buffers) });
+    }
+}
+
+impl<'a> Hand<'a> {
+    pub fn new(bytes: &'a [u8], variables: u32, texts: Vec<CString>) -> Self {
+        let buffers = Box::new(Buffers {
+            references: [0; LONGEST],
+            reals: [0.0; LONGEST],
+            integers: [0; LONGEST],
+            longs: [0; LONGEST],
+            sizes: [0; LONGEST],
+            texts: [std::ptr::null(); LONGEST],
+            bytes: [0; 8 * LONGEST],
+        });
+        Self {
+            rest: bytes,
+            buffers: Box::into_raw(buffers),
+            texts,
+            variables,
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.rest.is_empty()
+    }
+
+    pub fn byte(&mut self) -> u8 {
+        let Some((first, rest)) = self.rest.split_first() else {
+            return 0;
+        };
+        self.rest = rest;
+        *first
+    }
+
+    pub fn below(&mut self, end: usize) -> usize {
+        usize::from(self.byte()) % end
+    }
+
+    /// One in `parts`.
+    pub fn rarely(&mut self, parts: usize) -> bool {
+        self.below(parts) == parts - 1
+    }
+
+    pub fn word(&mut self) -> u64 {
+        let mut bytes = [0; 8];
+        bytes.fill_with(|| self.byte());
+        u64::from_le_bytes(bytes)
+    }
+
+    pub fn real(&mut self) -> f64 {
+        const POOL: [f64; 20] = [
+            0.0,
+            -0.0,
+            1.0,
+            -1.0,
+            1e-3,
+            0.01,
+            0.1,
+            2.0,
+            1e-9,
+            5e-324,
+            1e3,
+            1e10,
+            1e300,
+            -1e300,
+            f64::MAX,
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            0.5,
+            0.02,
+        ];
+        match self.below(POOL.len() + 2) {
+            index if index < POOL.len() => POOL[index],
+            index if index == POOL.len() => f64::from_bits(self.word()),
+            _ => f64::from(self.byte()) / 64.0 - 2.0,
+        }
+    }
+
+    pub fn reference(&mut self) -> u32 {
+        if self.rarely(16) {
+            return self.word() as u32;
+        }
+        u32::from(self.byte()) % (self.variables + 2)
+    }
+
+    /// A length: mostly one that the buffers have.
+    pub fn length(&mut self) -> usize {
+        match self.below(12) {
+            0 => 0,
+            1 => usize::MAX,
+            2 => LONGEST,
+            _ => 1 + self.below(2),
+        }
+    }
+
+    pub fn buffers(&mut self) -> *mut Buffers {
+        self.buffers
+    }
+
+    /// Null, misaligned, or as it is.
+    pub fn spoil<T>(&mut self, pointer: *mut T) -> *mut T {
+        match self.below(24) {
+            0 => std::ptr::null_mut(),
+            1 if size_of::<T>() > 1 => pointer.wrapping_byte_add(1),
+            _ => pointer,
+        }
+    }
+
+    pub fn text(&mut self) -> *const c_char {
+        let index = self.below(self.texts.len() + 1);
+        self.texts.get(index).map_or(std::ptr::null(), |text| text.as_ptr())
+    }
+
+    /// The first text.
+    pub fn first_text(&self) -> *const c_char {
+        self.texts[0].as_ptr()
+    }
+
+    /// Damages bytes that are to be read back, and mends their checksum now and then, so that what is behind it is reached.
+    pub fn damage(&mut self, bytes: &mut Vec<u8>) {
+        for _ in 0..self.below(4) {
+            let (at, new) = (self.word() as usize % bytes.len().max(1), self.byte());
+            match self.below(5) {
+                0 => bytes.truncate(at),
+                1 => bytes.push(new),
+                2 => {
+                    let real = self.real().to_le_bytes();
+                    bytes.iter_mut().skip(at).zip(real).for_each(|(byte, new)| *byte = new);
+                }
+                _ => bytes.iter_mut().skip(at).take(1).for_each(|byte| *byte = new),
+            }
+        }
+        if let Some(end) = bytes.len().checked_sub(4)
+            && self.below(4) > 0
+        {
+            let sum = crc32fast::hash(&bytes[..end]).to_le_bytes();
+            bytes[end..].copy_from_slice(&sum);
+        }
+    }
+}
+
+/// Draws an argument of one role.
+pub trait Draw {
+    type Argument;
+    fn draw(hand: &mut Hand) -> Self::Argument;
+}
+
+/// A role by its draw.
+macro_rules! roles {
+    ($($role:ident -> $kind:ty = |$hand:ident| $draw:expr;)*) => {$(
+        pub struct $role;
+        impl Draw for $role {
+            type Argument = $kind;
+            fn draw($hand: &mut Hand) -> $kind {
+                $draw
+            }
+        }
+    )*};
+}
+
+/// Fills a buffer with draws and lends it, spoiled now and then.
+macro_rules! filled {
+    ($hand:ident, $field:ident, $draw:expr) => {{
+        for index in 0..3 {
+            let value = $draw;
+            // SAFETY: the buffers live as long as the hand, and no reference into them does.
+            unsafe { (*$hand.buffers()).$field[index] = value };
+        }
+        // SAFETY: as above.
+        let pointer = unsafe { &raw mut (*$hand.buffers()).$field };
+        $hand.spoil(pointer.cast())
+    }};
+}
+
+roles! {
+    Real -> f64 = |hand| hand.real();
+    Flag -> u8 = |hand| hand.byte();
+    Whole -> i32 = |hand| i32::from(hand.byte() as i8);
+    Reference -> u32 = |hand| hand.reference();
+    Length -> usize = |hand| hand.length();
+    Text -> *const c_char = |hand| hand.text();
+    References -> *mut u32 = |hand| filled!(hand, references, hand.reference());
+    Reals -> *mut f64 = |hand| filled!(hand, reals, hand.real());
+    Wholes -> *mut i32 = |hand| filled!(hand, integers, i32::from(hand.byte()));
+    Longs -> *mut i64 = |hand| filled!(hand, longs, i64::from(hand.byte()));
+    Sizes -> *mut usize = |hand| filled!(hand, sizes, usize::from(hand.byte()));
+    Texts -> *mut *const c_char = |hand| filled!(hand, texts, hand.text());
+    Bytes -> *mut u8 = |hand| filled!(hand, bytes, hand.byte());
+    Singles -> *mut f32 = |hand| filled!(hand, reals, hand.real());
+    Tiny -> *mut i8 = |hand| filled!(hand, bytes, hand.byte());
+    Short -> *mut i16 = |hand| filled!(hand, integers, 0);
+    UnsignedShort -> *mut u16 = |hand| filled!(hand, integers, 0);
+    UnsignedLongs -> *mut u64 = |hand| filled!(hand, longs, i64::from(hand.byte()));
+    Statuses -> *mut jostle::fmi::abi::common::Status = |hand| filled!(hand, integers, 0);
+    Nothing -> *mut std::ffi::c_void = |_hand| std::ptr::null_mut();
+    NoBinaries -> *mut *const u8 = |_hand| std::ptr::null_mut();
+}

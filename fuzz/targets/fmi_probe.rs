@@ -1,0 +1,17 @@
+//! Both versions of FMI with the probe scene, which refuses and panics when told to.
+#![no_main]
+
+#[path = "../harness/fmi.rs"]
+mod fmi;
+#[path = "../harness/fmi_calls.rs"]
+mod fmi_calls;
+#[path = "../harness/hand.rs"]
+mod hand;
+
+mod library {
+    pub use fmu_probe::{Probe as Subject, fmi2, fmi3};
+    pub const DISKS: u32 = 3;
+    pub const LONGEST_STEP: f64 = 1e300;
+}
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fmi_calls::run(bytes));

@@ -1,0 +1,121 @@
+"""What a shipped library asks of the machine, how large it is, and what is in it that its scene does not need."""
+
+import ctypes
+import re
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+from jostle_lab.errors import LabError
+
+OLDEST_GLIBC = (2, 31)
+"""What the libraries may need at most: Debian 11, Ubuntu 20.04."""
+
+SYSTEM = frozenset({"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "ld-linux-x86-64.so.2"})
+"""All parts of glibc; nothing else may be asked for."""
+
+STRANGERS = (
+    ("jostle_packing_event_driven", ("molecular_dynamics", "located_dynamics", "ratchet", "wedge", "three_disk")),
+    ("jostle_packing_located", ("event_driven", "VelocityVerlet", "ratchet", "wedge", "three_disk")),
+    ("jostle_packing", ("event_driven", "located_dynamics", "ratchet", "wedge", "three_disk")),
+    ("jostle_ratchet", ("molecular_dynamics", "wedge", "three_disk")),
+    ("jostle_wedge_molecular_dynamics", ("ratchet", "event_driven", "DiskInWedge", "three_disk")),
+    ("jostle_wedge", ("molecular_dynamics", "ratchet", "event_driven", "three_disk")),
+    ("jostle_three_disk", ("ratchet", "event_driven", "wedge")),
+)
+"""Words of the symbols that a library must not have, by the beginning of its name; the first that fits counts."""
+
+NOWHERE = ("quick_xml", "clap", "catalogue", "command_line", "toml", "bundle")
+"""Words that no FMU's library may have: the command line, the writing of FMUs, the table of all scenes."""
+
+
+@dataclass(frozen=True)
+class Needs:
+    """What the dynamic linker must find."""
+
+    glibc: tuple[int, ...]
+    libraries: frozenset[str]
+
+    @property
+    def version(self) -> str:
+        """Version of glibc as people write it."""
+        return ".".join(map(str, self.glibc))
+
+
+def needs(library: Path) -> Needs:
+    """Newest symbol version and libraries that `library` asks for."""
+    versions = re.findall(r"GLIBC_([\d.]+)", _run("objdump", "-T", str(library)))
+    asked = re.findall(r"NEEDED\s+(\S+)", _run("objdump", "-p", str(library)))
+    return Needs(max(tuple(map(int, version.split("."))) for version in versions), frozenset(asked))
+
+
+def strangers(library: Path) -> list[str]:
+    """Symbols of an unstripped library that its scene does not need."""
+    name = library.stem.removeprefix("lib")
+    words = [*NOWHERE, *next((words for start, words in STRANGERS if name.startswith(start)), ())]
+    if not name.endswith("_input") and _has_twin(library):
+        words.append("FollowsInput")
+    symbols = _run("nm", str(library)).splitlines()
+    if len(symbols) < 100:
+        raise LabError(f"{library} has no symbol table. Build it with CARGO_PROFILE_RELEASE_STRIP=none")
+    return [line.split()[-1] for line in symbols if any(word in line for word in words)]
+
+
+def _has_twin(library: Path) -> bool:
+    """Whether this is the library of a drive without inputs."""
+    return library.stem.endswith("_sine") or library.stem in {"libjostle_wedge_map", "libjostle_wedge_event_driven"}
+
+
+def scenes(c_library: Path) -> list[tuple[str, str, str]]:
+    """Scene, engine and drive of everything that the C library knows."""
+    loaded = ctypes.CDLL(str(c_library))
+    loaded.jostle_scenes.restype = ctypes.c_size_t
+    text = ctypes.create_string_buffer(1 << 16)
+    loaded.jostle_scenes(text, ctypes.c_size_t(len(text)))
+    rows = (line.split(" ") for line in text.value.decode().splitlines())
+    return [(scene, engine, drive) for scene, engine, drive in rows]
+
+
+def release_table(folder: Path) -> str:
+    """Bundles every FMU with the libraries in `folder` and returns sizes and needs as a Markdown table.
+
+    Raises LabError if a library asks for more than it may.
+    """
+    rows = ["| FMU | library [kB] | FMI 2.0 [kB] | FMI 3.0 [kB] | glibc | libraries |", "|---|---|---|---|---|---|"]
+    out = folder / "fmu"
+    out.mkdir(exist_ok=True)
+    for scene, engine, drive in scenes(folder / "libjostle_c.so"):
+        files = [out / f"{scene}-{engine}-{drive}.fmi{version}.fmu" for version in (2, 3)]
+        for version, file in zip((2, 3), files, strict=True):
+            options = ["--engine", engine, "--drive", drive, "--fmi", str(version), "--out", str(file)]
+            _run(str(folder / "jostle"), "fmu", scene, *options)
+        library = folder / f"lib{_identifier(files[1])}.so"
+        sizes = [f"{path.stat().st_size / 1000:.0f}" for path in (library, *files)]
+        rows.append(f"| {scene}, {engine}, {drive} | {' | '.join(sizes)} | {_checked(library)} |")
+    c_library = folder / "libjostle_c.so"
+    rows.append(f"| C library | {c_library.stat().st_size / 1000:.0f} | - | - | {_checked(c_library)} |")
+    return "\n".join(rows)
+
+
+def _checked(library: Path) -> str:
+    found = needs(library)
+    foreign = found.libraries - SYSTEM
+    if found.glibc > OLDEST_GLIBC or foreign:
+        raise LabError(f"{library} needs glibc {found.version} and {sorted(foreign)}. Build it with scripts/release")
+    short = sorted(name.split(".")[0] for name in found.libraries if not name.startswith("ld-"))
+    return f"{found.version} | {', '.join(short)}"
+
+
+def _identifier(fmu: Path) -> str:
+    listing = _run("python3", "-m", "zipfile", "-l", str(fmu))
+    found = re.search(r"binaries/x86_64-linux/(\S+)\.so", listing)
+    if not found:
+        raise LabError(f"{fmu} holds no library. Bundle it again")
+    return found[1]
+
+
+def _run(*arguments: str) -> str:
+    done = subprocess.run(arguments, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise LabError(f"{arguments[0]} failed: {done.stderr.strip()[-400:]}. Check that it is installed")
+    return done.stdout

@@ -1,0 +1,38 @@
+//! Random sequences of calls of all functions of both versions of FMI, on the probe scene: a short run of what `fuzz/run`
+//! does for hours, and the inputs that it has found worth keeping.
+#![allow(unsafe_code, dead_code, clippy::undocumented_unsafe_blocks)]
+
+#[path = "../fuzz/harness/fmi.rs"]
+mod fmi;
+#[path = "../fuzz/harness/fmi_calls.rs"]
+mod fmi_calls;
+#[path = "../fuzz/harness/hand.rs"]
+mod hand;
+
+mod library {
+    pub use fmu_probe::{Probe as Subject, fmi2, fmi3};
+    pub const DISKS: u32 = 3;
+    pub const LONGEST_STEP: f64 = 1e300;
+}
+
+use proptest::prelude::*;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn any_sequence_of_calls_is_answered(bytes in prop::collection::vec(any::<u8>(), 0..1000)) {
+        fmi_calls::run(&bytes);
+    }
+}
+
+#[test]
+fn the_corpus_is_answered() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/fuzz/corpus/fmi_probe");
+    let mut inputs = 0;
+    for file in std::fs::read_dir(folder).expect("the corpus") {
+        fmi_calls::run(&std::fs::read(file.expect("a file").path()).expect("readable"));
+        inputs += 1;
+    }
+    assert!(inputs > 20, "{inputs} inputs");
+}

@@ -43,7 +43,7 @@ pub struct Passage<'step, F> {
 }
 
 /// Nodes of Gauss's rule, (1 -+ 1/sqrt 3) / 2; each stands for half of the step.
-const GAUSS: [f64; 2] = [0.211_324_865_405_187_12, 0.788_675_134_594_812_9];
+const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 const VALUES: [Cubic; 2] = [Cubic::value(GAUSS[0]), Cubic::value(GAUSS[1])];
 const SLOPES: [Cubic; 2] = [Cubic::slope(GAUSS[0]), Cubic::slope(GAUSS[1])];
 const BENDS: [Cubic; 2] = [Cubic::bend(GAUSS[0]), Cubic::bend(GAUSS[1])];

@@ -9,6 +9,10 @@ use crate::error::{Error, Result};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::{Unit, Values, Variable};
 
+/// Largest aperture \[rad\]: a little more than 179.9 degrees. Not a rounded pi.
+#[allow(clippy::approx_constant)]
+const WIDEST: f64 = 3.14;
+
 const BASE_SPEED: &str = "measure.base_velocity";
 
 /// All rows: those of every engine with the engine's own parameters, drive and counts.
@@ -55,7 +59,7 @@ fn geometry() -> Vec<Variable> {
         Variable::parameter(
             "wedge.aperture",
             Unit::Radian,
-            1.047..=3.14,
+            1.047..=WIDEST,
             2.0944,
             "Angle theta_W between the walls",
         ),

@@ -183,6 +183,14 @@ enum JostleStatus jostle_restore(struct JostleSimulation *simulation,
 enum JostleStatus jostle_advance_to(struct JostleSimulation *simulation,
                                     double end_time);
 
+// Lets one step do no more than so much work, instead of what takes half an hour at most. A unit is an event (0.1 to 1
+// microseconds) or a time step of ten disks; a step that asks for more is refused. No part of the state.
+//
+// # Safety
+// `simulation` is null or was made here and not freed.
+enum JostleStatus jostle_limit_work(struct JostleSimulation *simulation,
+                                    uint64_t most);
+
 // Writes the time reached, in seconds.
 //
 // # Safety

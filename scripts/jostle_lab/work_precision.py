@@ -26,6 +26,8 @@ COLOURS = ("#1f5fa8", "#d07a1f", "#2e7d4f", "#a23b72", "#6b6b6b", "#8a6d1f", "#3
 MARKERS = "osv^DPX*"
 ROUNDING = 1e-14
 """Errors below this are rounding: no order is fitted through them."""
+ABOVE_FLOOR = 10.0
+"""Nor through errors within this factor of that at which a curve ends."""
 FLOOR = 1e-16
 """Where an error of zero is drawn."""
 
@@ -95,14 +97,25 @@ def _diagram(case: dict[str, str], rows: list[dict[str, str]]) -> Diagram:
     )
 
 
+def _floor(points: list[Point]) -> float:
+    """The error that the two dearest points share within a factor of 1.5, or 0 where the curve still falls."""
+    by_work = sorted(points, key=lambda p: p.evaluations)
+    if len(by_work) < 2 or by_work[-1].evaluations < 1.5 * by_work[-2].evaluations:
+        return 0.0
+    last, before = by_work[-1].error, by_work[-2].error
+    return min(last, before) if max(last, before) <= 1.5 * min(last, before) else 0.0
+
+
 def order(points: list[Point]) -> float | None:
     """Fitted order: minus the slope of log error against log evaluations, or None where three points do not tell.
 
-    Points at rounding are left out, and whole curves that are means over an ensemble.
+    Points at rounding are left out, and those near the error at which a curve stays however much it works, which is
+    that of the reference or of summed rounding; and whole curves that are means over an ensemble.
     """
     if any(p.error_bar > 0.0 for p in points):
         return None
-    told = [p for p in points if p.error > ROUNDING and p.evaluations > 0.0]
+    least = max(ROUNDING, ABOVE_FLOOR * _floor(points))
+    told = [p for p in points if p.error > least and p.evaluations > 0.0]
     if len(told) < 3:
         return None
     work, error = (np.log([getattr(p, name) for p in told]) for name in ("evaluations", "error"))
@@ -204,7 +217,8 @@ def _head(machine: dict[str, str]) -> str:
         "setting of one method; CPU time is that of one solution without its set-up, the median of "
         f"{machine['rounds']} rounds in which all points of a case take turns. The order is minus the slope of the "
         "straight line through error against evaluations on log axes, which is that against CPU time without what does "
-        "not grow with the work. Points at rounding are left out of it; curves of ensemble means have none.\n\n"
+        "not grow with the work. Points at rounding are left out of it, and those within ten times the error at which "
+        "a curve stays; curves of ensemble means have none.\n\n"
         f"Machine: {machine['processor']}, {machine['cores']} cores, shared. Target: {machine['target']}. "
         f"Version {machine['version']}. Take ratios, not times."
     )

@@ -36,6 +36,9 @@ def test_every_measured_case_has_a_small_picture(tmp_path: Path) -> None:
 def test_order_is_the_slope() -> None:
     times = [1.0, 2.0, 4.0, 8.0]
     assert order(curve([t**-4 for t in times], times)) == pytest.approx(4.0)
+    # A curve that ends at the error of its reference has the order of what lies above.
+    longer = [2.0**n for n in range(7)]
+    assert order(curve([t**-4 + 1e-5 for t in longer], longer)) == pytest.approx(4.0, abs=0.05)
     assert order(curve([1e-3, 1e-4], [1.0, 10.0])) is None
     assert order(curve([1e-15, 1e-16, 1e-15], times[:3])) is None
 

@@ -70,7 +70,8 @@ pub trait Excitation: Clone + PartialEq + Serialize + DeserializeOwned + Send + 
 #[inline]
 fn small_sine_cosine(angle: f64) -> (f64, f64) {
     let x = angle * angle;
-    let sine = 1.0 - x / 6.0 * (1.0 - x / 20.0 * (1.0 - x / 42.0 * (1.0 - x / 72.0 * (1.0 - x / 110.0))));
+    let sine =
+        1.0 - x / 6.0 * (1.0 - x / 20.0 * (1.0 - x / 42.0 * (1.0 - x / 72.0 * (1.0 - x / 110.0 * (1.0 - x / 156.0)))));
     let cosine =
         1.0 - x / 2.0 * (1.0 - x / 12.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0 * (1.0 - x / 90.0 * (1.0 - x / 132.0)))));
     (angle * sine, cosine)

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 from fmpy import extract, fmi2, read_model_description
-from fmpy.fmi1 import FMICallException
+from fmpy.fmi1 import FMICallException, printLogMessage
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 from fmpy.logging import addLoggerProxy
@@ -63,6 +63,21 @@ class _Variables:
         self.references = (ctypes.c_uint * self.count)(*references)
         self.values = np.zeros(self.count)
         self.pointer = self.values.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+
+
+_LOGS: dict[int, list[str]] = {}
+"""Messages of the FMI 2.0 instances that live, by their environment."""
+
+
+def _route(environment: int | None, name: bytes, status: int, category: bytes, message: bytes) -> None:
+    """One logger for all: fmpy's proxy, which formats messages, keeps a single target for the whole process."""
+    if environment in _LOGS:
+        _LOGS[environment].append(message.decode(errors="replace"))
+    else:
+        printLogMessage(environment, name, status, category, message)
+
+
+_LOGGER = fmi2.fmi2CallbackLoggerTYPE(_route)
 
 
 class FmuGrains:
@@ -130,14 +145,13 @@ class FmuGrains:
     def _callbacks(self) -> Any:
         """FMI 2.0 callbacks that keep the messages of the FMU for our errors."""
         callbacks = fmi2.fmi2CallbackFunctions()
-        callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(self._record_log_2)
+        callbacks.logger = _LOGGER
         callbacks.allocateMemory = fmi2.defaultCallbacks.allocateMemory
         callbacks.freeMemory = fmi2.defaultCallbacks.freeMemory
+        callbacks.componentEnvironment = id(self)
         addLoggerProxy(ctypes.byref(callbacks))
+        _LOGS[id(self)] = self._log
         return callbacks
-
-    def _record_log_2(self, _environment: Any, _name: bytes, _status: int, _category: bytes, message: bytes) -> None:
-        self._log.append(message.decode(errors="replace"))
 
     def _record_log(self, _environment: Any, _status: int, _category: bytes, message: bytes) -> None:
         self._log.append(message.decode(errors="replace"))
@@ -287,4 +301,5 @@ class FmuGrains:
                 self._fmu.terminate()
             self._fmu.freeInstance()
             self._fmu = None
+        _LOGS.pop(id(self), None)
         shutil.rmtree(self._directory, ignore_errors=True)

@@ -21,7 +21,7 @@ STEP = 1.0 / 4096.0
 @pytest.fixture(scope="module", params=[2, 3], ids=["fmi2", "fmi3"])
 def fmu(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("fmu") / "ratchet.fmu"
-    words = [ROOT / "target/release/jostle", "fmu", "ratchet", "--drive", "input", "--disks", "30"]
+    words = [ROOT / "target/release/jostle", "fmu", "ratchet", "--drive", "input"]
     subprocess.run([*words, "--fmi", str(request.param), "--out", path], check=True)
     return path
 
@@ -79,8 +79,8 @@ def test_controller_refuses_what_the_amplifier_cannot_give() -> None:
 
 
 def test_gamma_is_held_the_grains_are_felt_and_the_flow_reverses(fmu: Path) -> None:
-    """Reduced effort: two frequencies, five seconds each."""
-    plan = Plan(frequencies=(20.0, 44.0), seconds=5.0)
+    """Reduced effort: two frequencies, at which native runs of 40 s tell -1.4 +- 0.2 and 0.30 +- 0.04 cm/s."""
+    plan = Plan(frequencies=(20.0, 44.0), seconds=12.0)
     product = make(fmu, plan, show_progress=False)
     held, felt, _ = product.statements
     assert held.verdict is Verdict.AGREES, held.found
@@ -102,7 +102,7 @@ def test_a_mark_starts_the_average_anew(fmu: Path) -> None:
         for n in range(4096, 8192):
             grains.step(motion[n], speed[n], STEP)
         assert grains.transport().mean == pytest.approx(100.0 * (grains.place() - before), rel=1e-9)
-        assert grains.weight == pytest.approx(30 * 1e-5 * 9.81)
+        assert grains.weight == pytest.approx(20 * 1e-5 * 9.81)
         assert grains.box_width == pytest.approx(0.06)
     finally:
         grains.close()

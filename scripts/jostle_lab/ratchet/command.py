@@ -13,9 +13,9 @@ from jostle_lab.thesis.product import write
 
 
 def ratchet_demo(
-    fmu: Annotated[
-        Path, typer.Option(help="Ratchet FMU of 30 disks, 2.0 or 3.0: `jostle fmu ratchet --drive input --disks 30`.")
-    ] = Path("build/ratchet.fmu"),
+    fmu: Annotated[Path, typer.Option(help="Ratchet FMU, 2.0 or 3.0: `jostle fmu ratchet --drive input`.")] = Path(
+        "build/ratchet.fmu"
+    ),
     results: Annotated[Path, typer.Option(help="Folder that gets ratchet-demo/.")] = Path("results"),
     gamma: Annotated[float, typer.Option(help="Gamma that the controller holds.")] = 3.0,
     low: Annotated[float, typer.Option(help="First frequency [Hz].")] = 16.0,

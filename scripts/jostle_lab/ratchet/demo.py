@@ -3,7 +3,7 @@
     controller -> voltage -> loudspeaker -> base displacement, velocity -> ratchet FMU -> reaction force -> loudspeaker
         ^--------------------- acceleration of the base <---------------------'
 
-Teeth and layer depth are those of a curve of F Fig. 10 (h = 6 mm, a = 0.25, n = 1.05). There the amplitude is the same
+Teeth and layer depth are those of a curve of F Fig. 10 (h = 6 mm, a = 0.25, n = 0.7). There the amplitude is the same
 at all frequencies and the flow turns from positive to negative. Here Gamma is held, so the amplitude falls as the
 frequency rises, and the flow turns the other way.
 """
@@ -169,7 +169,7 @@ def make(fmu: Path, plan: Plan, show_progress: bool = True) -> Product:
     ]
     notes = [
         "teeth of F Fig. 10: h = 6 mm, a = 0.25, ten teeth",
-        f"30 disks, n = 1.05, steel rods of {1e3 * ROD:g} g; seed {plan.seed}",
+        f"20 disks, n = 0.7, steel rods of {1e3 * ROD:g} g; seed {plan.seed}",
         f"exchange every 1/{1 / STEP:.0f} s, {SETTLING:g} s to settle, then {plan.seconds:g} s from a mark on",
         "loudspeaker of the packing's laboratory; lock-in over each period, U <- U (Gamma_set/Gamma)^0.3",
     ]

@@ -16,7 +16,8 @@ const OUTER_MARGIN: f64 = 0.3;
 const INNER_MARGINS: [f64; 2] = [1e-3, 0.15];
 
 /// Steps that an inner list should last, at the speed of the fastest disk. A shorter list costs less a step, but is made
-/// more often: 8 to 32 differ by 2 per cent in a packing at Gamma 4.
+/// more often: 6 instead of 16 saves 9 % of the time with 60 disks at Gamma 4 and costs 4 % with 1,000; 48 costs 20 % and
+/// nothing (`cargo bench --bench packing`).
 const STEPS_TO_LAST: f64 = 16.0;
 
 /// Margin of an inner list \[m\] for a speed \[m/s\] of the fastest disk or the base: two disks may come together.

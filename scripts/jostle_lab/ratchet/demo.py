@@ -4,8 +4,8 @@
         ^--------------------- acceleration of the base <---------------------'
 
 Teeth and layer depth are those of a curve of F Fig. 10 (h = 6 mm, a = 0.25, n = 0.7). There the amplitude is the same
-at all frequencies and the flow turns from positive to negative. Here Gamma is held, so the amplitude falls as the
-frequency rises, and the flow turns the other way.
+at all frequencies; thicker beds turn from positive to negative as the frequency rises, and this one stays negative.
+Here Gamma is held, so the amplitude falls as the frequency rises, and the flow turns from negative to positive.
 """
 
 import math

@@ -147,17 +147,22 @@ impl<E: Excitation> ThreeDisk<E> {
             let cell_start = self.cell_start(0);
             let next_start = self.cell_start(1);
             let looks_only = end_time < next_start;
-            if looks_only && end_time == cell_start {
+            if looks_only && !stop && end_time == cell_start {
                 self.state.now = self.state.start;
                 break;
             }
             let end = self.course(cell_start)?;
             if stop {
-                let after_now = |node: &&Node| cell_start + node.offset > self.state.time;
-                let event = self.course.events.iter().find(after_now).copied();
-                if let Some(node) = event.filter(|node| cell_start + node.offset <= end_time) {
-                    self.state.time = cell_start + node.offset;
+                if let Some(node) = self.pending(cell_start) {
                     self.state.now = node;
+                    self.state.time = self.state.time.next_up();
+                    return Ok(true);
+                }
+                let after_now = |node: &&Node| cell_start + node.offset > self.state.time;
+                let event = self.course.events.iter().find(after_now);
+                let time = event.map(|node| cell_start + node.offset);
+                if let Some(time) = time.filter(|time| *time <= end_time) {
+                    self.reach(cell_start, time);
                     return Ok(true);
                 }
             }
@@ -172,6 +177,26 @@ impl<E: Excitation> ThreeDisk<E> {
         }
         self.state.time = end_time;
         Ok(false)
+    }
+
+    /// The disk after an event that falls on the present time, to rounding, but has not happened yet: the second contact,
+    /// if what drives the disk was changed when the first one did. Told one bit of time later than it is, since time
+    /// must go on.
+    fn pending(&self, cell_start: f64) -> Option<Node> {
+        let now = &self.state.now;
+        let events = self.course.events.iter().rev();
+        let last = events.copied().find(|node| cell_start + node.offset == self.state.time);
+        last.filter(|node| node.contacts != now.contacts)
+    }
+
+    /// Goes to the last event of the present cell that falls on `time` \[s\], to rounding of time: of two contacts that
+    /// change together neither is left behind.
+    fn reach(&mut self, cell_start: f64, time: f64) {
+        let then = |node: &&Node| cell_start + node.offset == time;
+        if let Some(node) = self.course.events.iter().rev().find(then) {
+            self.state.now = *node;
+        }
+        self.state.time = time;
     }
 
     /// Start \[s\] of the cell that is `ahead` of the present one.

@@ -192,12 +192,15 @@ def peers(
     state: Annotated[
         list[Path] | None, typer.Option(help="State of molecular dynamics, such as s60.txt; may be repeated.")
     ] = None,
+    copies: Annotated[
+        list[int] | None, typer.Option(min=1, help="With --state: copies of it side by side; may be repeated.")
+    ] = None,
 ) -> None:
     """Measure an engine beside another program: nanoseconds a collision, or with --state a disk and step."""
     typer.echo("case            ours [ns]  theirs [ns]  ratio")
     rows: list[tuple[str, float, float, float]]
     if state:
-        rows = compare_molecular_dynamics(source, state, rounds)
+        rows = compare_molecular_dynamics(source, state, copies or [1], rounds)
     else:
         rows = [(f"{row[0]} disks", *row[1:]) for row in compare(source, rounds)]
     for case, ours, theirs, ratio in rows:

@@ -17,7 +17,7 @@ SIZES = (60, 1000, 10_000, 100_000)
 PACKING_FRACTION = 0.6
 COLLISIONS = 2_000_000
 SHELL = 1.8
-DISK_STEPS = 6_000_000
+DISK_STEPS = 20_000_000
 """Disks times steps of one run of molecular dynamics."""
 TIME_STEP = "1e-6"
 
@@ -45,10 +45,13 @@ def _row(ours: Path, theirs: Path, size: int, rounds: int) -> tuple[int, float, 
     return size, own_median, their_median, ratio
 
 
-def compare_molecular_dynamics(source: Path, states: list[Path], rounds: int) -> list[tuple[str, float, float, float]]:
-    """Rows of (state, ours [ns a disk and step], theirs, ratio), medians over `rounds` runs in turn.
+def compare_molecular_dynamics(
+    source: Path, states: list[Path], copies: list[int], rounds: int
+) -> list[tuple[str, float, float, float]]:
+    """Rows of (case, ours [ns a disk and step], theirs, ratio), medians over `rounds` runs in turn.
 
-    Ours is built for any x86-64, theirs with `-O3 -march=native -ffast-math` for this machine.
+    Ours is built for any x86-64, theirs with `-O3 -march=native -ffast-math` for this machine. Each state is taken so many
+    times side by side in a box as much wider.
     """
     example = "peer_molecular_dynamics"
     _run(["cargo", "build", "--release", "--example", example])
@@ -56,18 +59,37 @@ def compare_molecular_dynamics(source: Path, states: list[Path], rounds: int) ->
     with tempfile.TemporaryDirectory() as folder:
         theirs = Path(folder) / "peer"
         _run(["g++", "-O3", "-march=native", "-ffast-math", "-std=c++17", str(source), "-o", str(theirs)])
-        return [_molecular_row(ours, theirs, state, rounds) for state in states]
+        rows = []
+        for state in states:
+            for count in copies:
+                wide = Path(folder) / f"{count} x {state.name}"
+                wide.write_text(side_by_side(state.read_text(), count))
+                rows.append(_molecular_row(ours, theirs, wide, rounds))
+        return rows
+
+
+def side_by_side(state: str, copies: int) -> str:
+    """A state whose box holds so many copies of another, each beside the one before it."""
+    header, *rows = state.strip().splitlines()
+    count, width, height = header.split()
+    lines = [f"{copies * int(count)} {copies * float(width)!r} {height}"]
+    for copy in range(copies):
+        for row in rows:
+            radius, x, *rest = row.split()
+            lines.append(" ".join([radius, repr(float(x) + copy * float(width)), *rest]))
+    return "\n".join(lines) + "\n"
 
 
 def _molecular_row(ours: Path, theirs: Path, state: Path, rounds: int) -> tuple[str, float, float, float]:
-    count = int(state.read_text().split()[0])
+    with state.open() as lines:
+        count = int(lines.readline().split()[0])
     arguments = [str(state), str(max(1, DISK_STEPS // count)), TIME_STEP]
     pairs = []
     for _ in range(rounds):
         own = _figure(_run([str(ours), *arguments]), r"ns/particle-step=([\d.]+)")
         pairs.append((own, _figure(_run([str(theirs), *arguments]), r"ns/particle-step=([\d.]+)")))
     own_median, their_median = (statistics.median(column) for column in zip(*pairs, strict=True))
-    return state.name, own_median, their_median, statistics.median(own / their for own, their in pairs)
+    return f"{count} disks", own_median, their_median, statistics.median(own / their for own, their in pairs)
 
 
 def _our_bench() -> Path:

@@ -23,8 +23,9 @@ CRITERIA = {
     "time": "time goes forward, counts do not fall",
     "lost": "no disk reaches beyond its walls, by half of the smallest radius (soft) or by rounding (hard)",
     "overlap": "no two disks overlap by more than that (packings up to 1000 disks)",
-    "energy": "change less work of the base plus losses: created at most 1 %, off at most 5 % of the throughput (soft, "
+    "energy": "change less work of the base plus losses: created at most 1 %, off at most 2 % of the throughput (soft, "
     "errors of first order in the step), 1e-9 (hard)",
+    "shrinks": "where that is above 1e-4: at an eighth of the time step at most half of it, over an eighth of the time",
     "momentum": "its change is weight and force on the base, within what the kinetic energy allows; where no other "
     "wall takes vertical force",
     "memory": "the process grows by less than 2 MB over the run",

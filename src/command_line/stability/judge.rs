@@ -13,6 +13,10 @@ const LOOKS: f64 = 400.0;
 const SIGMAS: f64 = 5.0;
 /// Runs of which such a mean is made.
 const SEEDS: i64 = 8;
+/// Part of the time step with which the energy's error must shrink, to this part of it or below what is small.
+const FINER: f64 = 0.125;
+const SHRUNK: f64 = 0.5;
+const SMALL: f64 = 1e-4;
 /// Growth of the resident memory over the second half of a run that is still called flat \[bytes\].
 const FLAT: f64 = 2e6;
 
@@ -219,6 +223,12 @@ fn limits<S: Scene>(watch: &mut Watch<S>, probe: &Probe, budget: f64, judged: &m
             watch.violated.push(("same bits", what));
         }
     }
+    if probe.is_soft() && watch.energy_error > SMALL {
+        judged.criteria.push("shrinks");
+        if let Err(what) = shrinks(watch, probe, budget) {
+            watch.violated.push(("shrinks", what));
+        }
+    }
     let Some(tame) = &probe.tame else {
         return;
     };
@@ -234,6 +244,39 @@ fn limits<S: Scene>(watch: &mut Watch<S>, probe: &Probe, budget: f64, judged: &m
     if (a - b).abs() > SIGMAS * a_error.hypot(b_error) {
         let what = format!("kinetic energy {a:.3e} +- {a_error:.1e} J, neighbour {b:.3e} +- {b_error:.1e} J");
         watch.violated.push(("tame neighbour", what));
+    }
+}
+
+/// Whether the energy's error is the integrator's own: over an eighth of the run, so that it costs no more than the run,
+/// with the step as it is and with an eighth of it.
+fn shrinks<S: Scene>(watch: &Watch<S>, probe: &Probe, budget: f64) -> Result<(), String> {
+    let values = watch.simulation.values();
+    let (step, seconds) = (values.real("chosen_time_step"), FINER * watch.simulation.time());
+    let error_at = |step: f64| {
+        let mut changes = probe.changes.clone();
+        changes.retain(|(name, _)| *name != "time_step");
+        changes.push(("time_step", step.into()));
+        let shorter = Probe {
+            changes,
+            seconds,
+            communication: None,
+            ..probe.clone()
+        };
+        let simulation =
+            Simulation::<S>::new(probe.disks, &shorter.changes).map_err(|error| format!("step {step} s: {error}"))?;
+        let mut watch = Watch::new(simulation);
+        match run(&mut watch, &shorter, 10.0 * budget, &mut Judged::new()) {
+            Some(error) => Err(format!("step {step} s: {error}")),
+            None => Ok(watch.energy_error),
+        }
+    };
+    let (coarse, fine) = (error_at(step)?, error_at(FINER * step)?);
+    if fine <= (SHRUNK * coarse).max(SMALL) {
+        Ok(())
+    } else {
+        Err(format!(
+            "energy error {coarse:.1e} over {seconds:.1e} s, {fine:.1e} at an eighth of the step"
+        ))
     }
 }
 

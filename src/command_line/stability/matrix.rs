@@ -27,6 +27,13 @@ pub struct Probe {
     pub tame: Option<Vec<(&'static str, Value)>>,
 }
 
+impl Probe {
+    /// Contacts are springs, integrated in steps.
+    pub fn is_soft(&self) -> bool {
+        self.engine.starts_with("molecular-dynamics")
+    }
+}
+
 /// A scene with an engine, and what its cases have in common.
 #[derive(Debug, Clone, Copy)]
 struct Kind {
@@ -180,15 +187,25 @@ pub fn long() -> Vec<Probe> {
         (probe.disks, probe.seconds) = (1, seconds);
         probe
     };
+    let box_of_one = |step: f64| vec![("time_step", step.into()), ("box.width", 0.1.into())];
+    let steps = "one disk, 1e9 time steps";
     vec![
+        lasting(SOFT_PACKING, steps, 1e4, box_of_one(1e-5)),
+        lasting(LOCATED_PACKING, steps, 1e4, box_of_one(1e-5)),
         lasting(
-            SOFT_PACKING,
-            "one disk, 1e9 time steps of 10 us",
-            1e4,
-            vec![("time_step", 1e-5.into()), ("box.width", 0.1.into())],
+            HARD_PACKING,
+            "one disk, some 1e9 impacts",
+            4e7,
+            vec![("box.width", 0.1.into())],
         ),
         lasting(MAP, "some 1e9 bounces", 1.2e7, Vec::new()),
         lasting(HARD_WEDGE, "some 1e9 bounces", 1.2e7, Vec::new()),
+        lasting(SOFT_WEDGE, steps, 1e3, vec![("time_step", 1e-6.into())]),
+        lasting(RATCHET, "one disk, some 1e9 events", 1e7, Vec::new()),
+        Probe {
+            drive: "harmonic-torque",
+            ..lasting(THREE_DISK, steps, 1e6, vec![("time_step", 1e-3.into())])
+        },
     ]
 }
 

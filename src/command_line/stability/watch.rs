@@ -8,7 +8,8 @@ use super::matrix::Probe;
 
 /// Largest share of the energy throughput that soft contacts may create, and by which their balance may be off, at a
 /// hundredth of a contact a step: errors of first order in the step, from the steps in which contacts close and open.
-const SOFT_SHARES: [f64; 2] = [0.01, 0.05];
+/// That they are of that kind is a criterion of its own.
+const SOFT_SHARES: [f64; 2] = [0.01, 0.02];
 /// The same for impacts, whose balance is exact but for rounding.
 const HARD_SHARES: [f64; 2] = [1e-9, 1e-9];
 /// Pairs are compared one by one up to this number of disks.
@@ -147,8 +148,7 @@ impl<S: Scene> Watch<S> {
         }
         // Rounding of the potential energy counts too.
         let rounding = 1e-13 * (self.start.total.abs() + now.total.abs());
-        let soft = probe.engine.starts_with("molecular-dynamics");
-        let [created, off] = if soft { SOFT_SHARES } else { HARD_SHARES };
+        let [created, off] = if probe.is_soft() { SOFT_SHARES } else { HARD_SHARES };
         let error = (residual.abs() - rounding).max(0.0) / self.scale;
         self.energy_error = self.energy_error.max(error);
         if error > off || residual > 0.0 && error > created {
@@ -194,8 +194,7 @@ impl<S: Scene> Watch<S> {
             .flatten()
             .fold(0.0, |most: f64, part| most.max(part.abs()))
             + base.abs();
-        let soft = probe.engine.starts_with("molecular-dynamics");
-        let allowed = if soft {
+        let allowed = if probe.is_soft() {
             0.5 * smallest
         } else {
             1e-10 * smallest + 1e-14 * far

@@ -81,6 +81,7 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
     fn counts() -> Vec<Variable> {
         let elastic = "Energy in the springs and skins of closed contacts";
         vec![
+            Variable::calculated("chosen_time_step", Unit::Second, 1e-7, "Time step in use"),
             Variable::output("energy.elastic", Unit::Joule, 1e-3, elastic),
             Variable::count_output("contacts", "Walls that the disk touches"),
         ]
@@ -161,6 +162,7 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
     }
 
     fn write_counts(&self, outputs: &mut OutputWriter<'_>) {
+        outputs.real("chosen_time_step", self.time_step());
         outputs.real("energy.elastic", self.engine.energies().elastic);
         outputs.integer("contacts", i64::from(self.engine.now().contacts));
     }

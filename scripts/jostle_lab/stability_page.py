@@ -49,7 +49,7 @@ def page(folder: Path) -> str:
             parts.append("Refused:\n" + "\n".join(_told(row) for row in refused))
     long = folder / "long.csv"
     if long.is_file():
-        parts.append("## Runs of 1e9 steps\n\n`jostle stability --long`\n\n" + _table(read_rows([long])))
+        parts.append("## Long runs\n\n`jostle stability --long`\n\n" + _table(read_rows([long])))
     return "\n\n".join(parts) + "\n"
 
 

@@ -180,31 +180,26 @@ pub fn all() -> Vec<Probe> {
     probes
 }
 
-/// Runs of 1e9 steps, bounces or impacts.
+/// Runs of 1e8 to 1e9 steps, bounces or impacts, of one disk.
 pub fn long() -> Vec<Probe> {
     let lasting = |kind: Kind, what: &str, seconds: f64, changes: Vec<(&'static str, Value)>| {
-        let mut probe = kind.probe("1e9 steps", what.into(), changes);
+        let mut probe = kind.probe("long run", what.into(), changes);
         (probe.disks, probe.seconds) = (1, seconds);
         probe
     };
-    let box_of_one = |step: f64| vec![("time_step", step.into()), ("box.width", 0.1.into())];
-    let steps = "one disk, 1e9 time steps";
+    let box_of_one = || vec![("box.width", 0.1.into())];
+    let box_and_step = || vec![("box.width", 0.1.into()), ("time_step", 1e-5.into())];
     vec![
-        lasting(SOFT_PACKING, steps, 1e4, box_of_one(1e-5)),
-        lasting(LOCATED_PACKING, steps, 1e4, box_of_one(1e-5)),
-        lasting(
-            HARD_PACKING,
-            "one disk, some 1e9 impacts",
-            4e7,
-            vec![("box.width", 0.1.into())],
-        ),
-        lasting(MAP, "some 1e9 bounces", 1.2e7, Vec::new()),
-        lasting(HARD_WEDGE, "some 1e9 bounces", 1.2e7, Vec::new()),
-        lasting(SOFT_WEDGE, steps, 1e3, vec![("time_step", 1e-6.into())]),
-        lasting(RATCHET, "one disk, some 1e9 events", 1e7, Vec::new()),
+        lasting(SOFT_PACKING, "1e9 time steps", 1e4, box_and_step()),
+        lasting(LOCATED_PACKING, "1e9 time steps", 1e4, box_and_step()),
+        lasting(HARD_PACKING, "1e8 impacts", 7e6, box_of_one()),
+        lasting(MAP, "1e9 bounces", 2e7, Vec::new()),
+        lasting(HARD_WEDGE, "1e9 bounces", 2e7, Vec::new()),
+        lasting(SOFT_WEDGE, "1e9 time steps", 1e3, vec![("time_step", 1e-6.into())]),
+        lasting(RATCHET, "1e8 impacts", 5.2e6, Vec::new()),
         Probe {
             drive: "harmonic-torque",
-            ..lasting(THREE_DISK, steps, 1e6, vec![("time_step", 1e-3.into())])
+            ..lasting(THREE_DISK, "1e8 time steps", 6.4e3, Vec::new())
         },
     ]
 }

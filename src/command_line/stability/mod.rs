@@ -35,7 +35,7 @@ pub struct Stability {
     /// Only cases whose scene, engine or dimension has this name; may be repeated.
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
-    /// The long runs of 1e9 steps, bounces or impacts, and nothing else; minutes to an hour.
+    /// The long runs of 1e8 to 1e9 steps, bounces or impacts, and nothing else; half an hour.
     #[arg(long)]
     long: bool,
 }

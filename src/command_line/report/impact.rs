@@ -8,11 +8,12 @@ use std::f64::consts::{PI, TAU};
 use jostle::collision::{CollisionLaw, Dashpot, Impact, TabulatedDashpot};
 use jostle::contact::{ElasticSkin, LinearDashpot};
 use jostle::drive::Sine;
+use jostle::engine::located_dynamics::limits;
 use jostle::engine::molecular_dynamics::{ContactLaws, Setup};
 use jostle::geometry::{Disk, Wall};
 
 use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder, root_mean_square};
-use super::engines::{SoftEngine, each_engine};
+use super::engines::{Located, SoftEngine, each_engine};
 
 const RADIUS: f64 = 0.02;
 const STIFFNESS: f64 = 1e4;
@@ -86,6 +87,19 @@ impl Hit {
         )?)
     }
 
+    fn laws(self) -> ContactLaws {
+        ContactLaws {
+            normal: LinearDashpot {
+                stiffness: STIFFNESS,
+                damping: self.damping,
+            },
+            skin: ElasticSkin {
+                stiffness: self.stiffness_ratio * STIFFNESS,
+                friction: self.friction,
+            },
+        }
+    }
+
     /// e_n, e_t and exit angle.
     fn exact(self) -> Result<[f64; 3], Trouble> {
         let (law, mass) = (self.law()?, mass());
@@ -118,20 +132,49 @@ fn contact_time() -> f64 {
     PI * (mass() / STIFFNESS).sqrt()
 }
 
+/// Impacts that stick, slip and roll back, with the time step that the fourth-order engine takes for each of these
+/// tolerances.
+pub fn by_tolerance(tolerances: impl Iterator<Item = f64>) -> Case {
+    let throws = [[0.3, 0.02], [0.3, 0.09], [0.2, 0.5], [0.2, 0.14]];
+    let hits = throws.map(|[normal_velocity, tangential_velocity]| Hit {
+        damping: 0.1,
+        friction: 0.1,
+        stiffness_ratio: 0.77,
+        normal_velocity,
+        tangential_velocity,
+    });
+    let points = tolerances.map(|tolerance| {
+        Point::new(Located::METHOD, tolerance, move |watch: &mut Stopwatch| {
+            // An infinitely heavy partner: the wall.
+            let step = limits(&hits[0].laws(), &[mass(), f64::INFINITY], None, tolerance).default;
+            let (mut errors, mut steps) = (Vec::new(), 0);
+            for hit in hits {
+                let (misses, done) = misses::<Located>(hit, step, watch)?;
+                steps += done;
+                let of = |i: usize| root_mean_square(&misses.iter().map(|miss| miss[i]).collect::<Vec<_>>());
+                errors.push(of(0).max(of(1)));
+            }
+            let passes = Located::PASSES * steps as f64 / throws.len() as f64;
+            Ok(Done::exact([root_mean_square(&errors)], passes))
+        })
+    });
+    Case {
+        name: "impact_tolerance",
+        problem: "Impacts on a wall that stick, slip and roll back, the time step chosen by the tolerance.".into(),
+        setting: "tolerance",
+        reference: "closed forms of stick and slip, stitched to rounding (collision::Dashpot)",
+        quantities: &[(
+            "restitution",
+            "error of the normal or the tangential restitution, whichever is larger, rms over the impacts",
+        )],
+        points: points.collect(),
+    }
+}
+
 /// The disk just before touch, at `place` of a time step; and when to look at it.
 fn engine<E: SoftEngine>(hit: Hit, step: f64, place: f64) -> (E, f64) {
-    let laws = ContactLaws {
-        normal: LinearDashpot {
-            stiffness: STIFFNESS,
-            damping: hit.damping,
-        },
-        skin: ElasticSkin {
-            stiffness: hit.stiffness_ratio * STIFFNESS,
-            friction: hit.friction,
-        },
-    };
     let setup = Setup {
-        laws,
+        laws: hit.laws(),
         walls: vec![Wall::vibrating_floor()],
         masses: vec![mass()],
         gravity: 0.0,
@@ -158,26 +201,32 @@ fn engine<E: SoftEngine>(hit: Hit, step: f64, place: f64) -> (E, f64) {
 fn soft<E: SoftEngine>(hit: Hit, steps: f64) -> Point {
     let step = contact_time() / steps;
     Point::new(E::METHOD, steps, move |watch: &mut Stopwatch| {
-        let exact = hit.exact()?;
-        let fresh: Vec<_> = (0..PLACES)
-            .map(|place| engine::<E>(hit, step, (place as f64 + 0.5) / PLACES as f64))
-            .collect();
-        let mut engines: Vec<_> = (0..REPEATS).flat_map(|_| fresh.iter().cloned()).collect();
-        watch
-            .measure((REPEATS * PLACES) as u32, || {
-                engines.iter_mut().try_for_each(|(engine, end)| engine.advance_to(*end))
-            })
-            .map_err(|breakdown| format!("{breakdown:?}"))?;
-        let outcomes = engines[..PLACES].iter().map(|(engine, _)| {
-            let [vx, vy, spin] = engine.first_rate();
-            hit.outcome(vy / hit.normal_velocity, (vx + RADIUS * spin) / hit.tangential_velocity)
-        });
-        let misses: Vec<[f64; 3]> = outcomes
-            .map(|found| std::array::from_fn(|i| found[i] - exact[i]))
-            .collect();
+        let (misses, steps) = misses::<E>(hit, step, watch)?;
         let errors = (0..3).map(|i| root_mean_square(&misses.iter().map(|miss| miss[i]).collect::<Vec<_>>()));
-        Ok(Done::exact(errors, E::PASSES * engines[0].0.steps() as f64))
+        Ok(Done::exact(errors, E::PASSES * steps as f64))
     })
+}
+
+/// Errors of e_n, e_t and exit angle of impacts at so many places in a step; steps of the first.
+fn misses<E: SoftEngine>(hit: Hit, step: f64, watch: &mut Stopwatch) -> Result<(Vec<[f64; 3]>, u64), Trouble> {
+    let exact = hit.exact()?;
+    let fresh: Vec<_> = (0..PLACES)
+        .map(|place| engine::<E>(hit, step, (place as f64 + 0.5) / PLACES as f64))
+        .collect();
+    let mut engines: Vec<_> = (0..REPEATS).flat_map(|_| fresh.iter().cloned()).collect();
+    watch
+        .measure((REPEATS * PLACES) as u32, || {
+            engines.iter_mut().try_for_each(|(engine, end)| engine.advance_to(*end))
+        })
+        .map_err(|breakdown| format!("{breakdown:?}"))?;
+    let outcomes = engines[..PLACES].iter().map(|(engine, _)| {
+        let [vx, vy, spin] = engine.first_rate();
+        hit.outcome(vy / hit.normal_velocity, (vx + RADIUS * spin) / hit.tangential_velocity)
+    });
+    let misses = outcomes
+        .map(|found| std::array::from_fn(|i| found[i] - exact[i]))
+        .collect();
+    Ok((misses, engines[0].0.steps()))
 }
 
 /// Many impacts by an impulse law, which are too short for a clock one by one.

@@ -1,10 +1,10 @@
 //! Contacts that last, against the closed form of the driven, damped oscillator: a disk on a shaken plane, and a disk
-//! between the two walls of a shaken wedge.
+//! between the two walls of a shaken wedge, by the engine of three disks (`supports`) too.
 //!
 //! On a plane at height b(t): `m y'' = -k_n (y - b) - gamma_n (y' - b') - m g`. In a wedge with walls at slopes
 //! +-alpha and without tilt the disk moves up and down by symmetry; both normals and both skins act:
-//! `k = 2 (k_n cos^2 alpha + k_t sin^2 alpha)`, damping `2 gamma_n cos^2 alpha`. Neither has an event, so both show
-//! the order of the integrator itself.
+//! `k = 2 (k_n cos^2 alpha + k_t sin^2 alpha)`, damping `2 gamma_n cos^2 alpha`. None has an event, so all show the
+//! order of the integrator itself.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,36 +17,36 @@ use super::case::{Case, Done, Point, Stopwatch, ladder};
 use super::engines::{SoftEngine, each_engine};
 use super::impact::contact_period;
 
-const RADIUS: f64 = 0.02;
-const STIFFNESS: f64 = 1e4;
-const STIFFNESS_RATIO: f64 = 0.77;
-const GRAVITY: f64 = 9.8;
-const DAMPING: f64 = 3.0;
+pub const RADIUS: f64 = 0.02;
+pub const STIFFNESS: f64 = 1e4;
+pub const STIFFNESS_RATIO: f64 = 0.77;
+pub const GRAVITY: f64 = 9.8;
+pub const DAMPING: f64 = 3.0;
 /// Periods of the free oscillation that are followed.
 const PERIODS: f64 = 8.0;
 const REPEATS: usize = 16;
 /// Slope of the walls of the wedge: an aperture of 120 degrees.
-const SLOPE: f64 = PI / 6.0;
-const FREQUENCY: f64 = 40.0;
-const AMPLITUDE: f64 = 2e-5;
+pub const SLOPE: f64 = PI / 6.0;
+pub const FREQUENCY: f64 = 40.0;
+pub const AMPLITUDE: f64 = 2e-5;
 
-const QUANTITIES: &[(&str, &str)] = &[("height", "error of the height over the amplitude of the base")];
+pub const QUANTITIES: &[(&str, &str)] = &[("height", "error of the height over the amplitude of the base")];
 
 /// A plane and a wedge.
 pub fn cases() -> Vec<Case> {
     let end = "after eight periods of its contact";
-    vec![
-        case(
-            "on_plane",
-            format!("A disk rests on a plane shaken at {FREQUENCY} Hz, A = {AMPLITUDE:e} m, {end}."),
-            || Oscillator::on(&[0.0]),
-        ),
-        case(
-            "in_wedge",
-            format!("A disk rests in a wedge of 120 degrees shaken at {FREQUENCY} Hz, A = {AMPLITUDE:e} m, {end}."),
-            || Oscillator::on(&[-SLOPE, SLOPE]),
-        ),
-    ]
+    let plane = case(
+        "on_plane",
+        format!("A disk rests on a plane shaken at {FREQUENCY} Hz, A = {AMPLITUDE:e} m, {end}."),
+        || Oscillator::on(&[0.0]),
+    );
+    let mut wedge = case(
+        "in_wedge",
+        format!("A disk rests in a wedge of 120 degrees shaken at {FREQUENCY} Hz, A = {AMPLITUDE:e} m, {end}."),
+        || Oscillator::on(&[-SLOPE, SLOPE]),
+    );
+    wedge.points.extend(super::supports::between_walls());
+    vec![plane, wedge]
 }
 
 fn case(name: &'static str, problem: String, oscillator: fn() -> Oscillator) -> Case {
@@ -66,9 +66,9 @@ fn case(name: &'static str, problem: String, oscillator: fn() -> Oscillator) -> 
 
 /// A disk that stays in contact with all its walls, as a linear oscillator in the vertical.
 #[derive(Debug, Clone)]
-struct Oscillator {
+pub struct Oscillator {
     walls: Vec<Wall>,
-    mass: f64,
+    pub mass: f64,
     /// Of all contacts together \[N/m\].
     stiffness: f64,
     /// Of the normals alone, which carry the weight before the skins are stretched \[N/m\].
@@ -78,7 +78,7 @@ struct Oscillator {
 }
 
 impl Oscillator {
-    fn on(slopes: &[f64]) -> Self {
+    pub fn on(slopes: &[f64]) -> Self {
         let sum = |part: fn(f64) -> f64| slopes.iter().map(|&slope| part(slope).powi(2)).sum::<f64>();
         let normal_stiffness = STIFFNESS * sum(f64::cos);
         Self {
@@ -88,6 +88,16 @@ impl Oscillator {
             normal_stiffness,
             damping: DAMPING * sum(f64::cos),
         }
+    }
+
+    /// Period of its oscillation \[s\].
+    pub fn period(&self) -> f64 {
+        contact_period(self.mass, self.stiffness)
+    }
+
+    /// End of the time that is followed \[s\].
+    pub fn end(&self) -> f64 {
+        PERIODS * self.period()
     }
 
     /// How far the weight presses the disk in while the skins are not stretched \[m\].
@@ -133,7 +143,7 @@ impl Oscillator {
     }
 
     /// Departure \[m\] from the height at the start, which is one of rest, at `time` \[s\].
-    fn departure(&self, time: f64) -> f64 {
+    pub fn departure(&self, time: f64) -> f64 {
         let (square, rate) = (self.stiffness / self.mass, 0.5 * self.damping / self.mass);
         let (natural, damped) = (square.sqrt(), (square - rate * rate).sqrt());
         let omega = TAU * FREQUENCY;
@@ -151,11 +161,10 @@ impl Oscillator {
 }
 
 fn point<E: SoftEngine>(oscillator: Oscillator, steps: f64) -> Point {
-    let period = contact_period(oscillator.mass, oscillator.stiffness);
     Point::new(E::METHOD, steps, move |watch: &mut Stopwatch| {
-        let fresh = oscillator.engine::<E>(period / steps);
+        let fresh = oscillator.engine::<E>(oscillator.period() / steps);
         let mut engines = vec![fresh; REPEATS];
-        let end = PERIODS * period;
+        let end = oscillator.end();
         watch
             .measure(REPEATS as u32, || {
                 engines.iter_mut().try_for_each(|engine| engine.advance_to(end))

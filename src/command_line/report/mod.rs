@@ -12,6 +12,7 @@ mod lasting;
 mod packing;
 mod ratchet;
 mod roots;
+mod supports;
 mod tables;
 mod torque;
 mod wedge;
@@ -100,7 +101,12 @@ fn all_cases() -> Vec<Case> {
     let families = [
         impact::cases(),
         lasting::cases(),
+        supports::cases(),
         packing::cases(),
+        vec![
+            impact::by_tolerance(case::ladder(1e-4, 0.1, 6)),
+            packing::by_tolerance(case::ladder(1e-4, 0.1, 6)),
+        ],
         ensemble::cases(),
         wedge::cases(),
         ratchet::cases(),

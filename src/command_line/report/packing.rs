@@ -10,6 +10,7 @@ use std::sync::OnceLock;
 
 use jostle::contact::{ElasticSkin, LinearDashpot};
 use jostle::drive::Sine;
+use jostle::engine::located_dynamics::limits;
 use jostle::engine::molecular_dynamics::{ContactLaws, Setup};
 use jostle::geometry::{Disk, Wall};
 use jostle::scene::Simulation;
@@ -50,6 +51,12 @@ struct Start {
     rates: [f64; 3],
 }
 
+impl Start {
+    fn mass(&self) -> f64 {
+        3.57 * PI * self.radius.powi(2)
+    }
+}
+
 /// Places (x, y, angle) of all disks.
 type Places = Vec<[f64; 3]>;
 
@@ -69,6 +76,28 @@ pub fn cases() -> Vec<Case> {
         quantities: QUANTITIES,
         points,
     }]
+}
+
+/// The same packing with the time step that the fourth-order engine takes for each of these tolerances.
+pub fn by_tolerance(tolerances: impl Iterator<Item = f64>) -> Case {
+    let points = tolerances.map(|tolerance| {
+        Point::new(Located::METHOD, tolerance, move |watch: &mut Stopwatch| {
+            let masses: Vec<f64> = start()?.iter().map(Start::mass).collect();
+            let step = limits(&laws(), &masses, Some(FREQUENCY), tolerance).default;
+            let (places, passes) = run::<Located>(step, watch)?;
+            Ok(Done::exact(errors(&places, reference()?, start()?), passes))
+        })
+    });
+    Case {
+        name: "packing60_tolerance",
+        problem: format!(
+            "The packing of {NAME}, the time step chosen by a tolerance of the velocities after an impact."
+        ),
+        setting: "tolerance",
+        reference: "located events at a time step of 62.5 ns",
+        quantities: QUANTITIES,
+        points: points.collect(),
+    }
 }
 
 /// The start, settled the first time it is asked for.
@@ -126,15 +155,20 @@ pub fn write_states(folder: &Path) -> Result<(), Failure> {
     std::fs::write(&path, rows.collect::<String>()).map_err(|error| Failure::file(&path, error))
 }
 
+fn laws() -> ContactLaws {
+    ContactLaws {
+        normal: LinearDashpot {
+            stiffness: 1e4,
+            damping: 0.1,
+        },
+        skin: ElasticSkin {
+            stiffness: 0.77e4,
+            friction: 0.1,
+        },
+    }
+}
+
 fn engine<E: SoftEngine>(start: &[Start], time_step: f64) -> E {
-    let normal = LinearDashpot {
-        stiffness: 1e4,
-        damping: 0.1,
-    };
-    let skin = ElasticSkin {
-        stiffness: 0.77e4,
-        friction: 0.1,
-    };
     let drive = Sine {
         amplitude: AMPLITUDE,
         frequency: FREQUENCY,
@@ -145,9 +179,9 @@ fn engine<E: SoftEngine>(start: &[Start], time_step: f64) -> E {
         ..Wall::vibrating_floor()
     };
     let setup = Setup {
-        laws: ContactLaws { normal, skin },
+        laws: laws(),
         walls: vec![bottom, Wall::left(0.0), Wall::right(WIDTH)],
-        masses: start.iter().map(|disk| 3.57 * PI * disk.radius.powi(2)).collect(),
+        masses: start.iter().map(Start::mass).collect(),
         gravity: GRAVITY,
         time_step,
         start_time: 0.0,

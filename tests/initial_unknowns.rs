@@ -107,7 +107,13 @@ fn variations(row: &Variable, now: Value) -> Vec<Value> {
         (_, Value::Integer(now)) => [1, 2, 3, 4, 5, now + 1, now + 2].map(Value::Integer).to_vec(),
         _ => unreachable!("a real holds a real"),
     };
-    all.into_iter().filter(|value| row.check(*value).is_ok()).collect()
+    // A table of impacts takes as long as the skin oscillates in one: a much stiffer one shows nothing new.
+    let quick = |value: &Value| match (row.name.as_str(), now, value) {
+        ("contact.stiffness_ratio", Value::Real(now), Value::Real(value)) => *value <= 3.0 * now,
+        _ => true,
+    };
+    let allowed = all.into_iter().filter(|value| row.check(*value).is_ok());
+    allowed.filter(quick).collect()
 }
 
 /// A starting point away from the start values, which are often zeros that hide what matters.

@@ -4,12 +4,31 @@ import ctypes
 import re
 import subprocess
 from dataclasses import dataclass
+from importlib import metadata
 from pathlib import Path
+
+from fmpy import read_model_description
 
 from jostle_lab.errors import LabError
 
-OLDEST_GLIBC = (2, 31)
-"""What the libraries may need at most: Debian 11, Ubuntu 20.04."""
+OLDEST_GLIBC = (2, 17)
+"""What anything that ships may need at most: what zig links against in scripts/release, of the year 2012."""
+
+COLUMNS = (
+    "name",
+    "bytes",
+    "fmi2_bytes",
+    "fmi3_bytes",
+    "variables",
+    "glibc",
+    "libraries",
+    "native_bytes",
+    "native_glibc",
+    "native_libraries",
+)
+"""Of the rows of sizes and needs."""
+
+Row = dict[str, str]
 
 SYSTEM = frozenset({"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "ld-linux-x86-64.so.2"})
 """All parts of glibc; nothing else may be asked for."""
@@ -76,12 +95,12 @@ def scenes(c_library: Path) -> list[tuple[str, str, str]]:
     return [(scene, engine, drive) for scene, engine, drive in rows]
 
 
-def release_table(folder: Path) -> str:
-    """Bundles every FMU with the libraries in `folder` and returns sizes and needs as a Markdown table.
+def release_rows(folder: Path, native: Path) -> list[Row]:
+    """Bundles every FMU with the libraries in `folder`; sizes and needs, beside those of a plain build in `native`.
 
-    Raises LabError if a library asks for more than it may.
+    Raises LabError if something asks for more than it may.
     """
-    rows = ["| FMU | library [kB] | FMI 2.0 [kB] | FMI 3.0 [kB] | glibc | libraries |", "|---|---|---|---|---|---|"]
+    rows = []
     out = folder / "fmu"
     out.mkdir(exist_ok=True)
     for scene, engine, drive in scenes(folder / "libjostle_c.so"):
@@ -89,21 +108,39 @@ def release_table(folder: Path) -> str:
         for version, file in zip((2, 3), files, strict=True):
             options = ["--engine", engine, "--drive", drive, "--fmi", str(version), "--out", str(file)]
             _run(str(folder / "jostle"), "fmu", scene, *options)
-        library = folder / f"lib{_identifier(files[1])}.so"
-        sizes = [f"{path.stat().st_size / 1000:.0f}" for path in (library, *files)]
-        rows.append(f"| {scene}, {engine}, {drive} | {' | '.join(sizes)} | {_checked(library)} |")
-    c_library = folder / "libjostle_c.so"
-    rows.append(f"| C library | {c_library.stat().st_size / 1000:.0f} | - | - | {_checked(c_library)} |")
-    return "\n".join(rows)
+        row = _row(f"{scene}, {engine}, {drive}", folder / f"lib{_identifier(files[1])}.so", native)
+        row["fmi2_bytes"], row["fmi3_bytes"] = (str(file.stat().st_size) for file in files)
+        row["variables"] = str(len(read_model_description(str(files[1])).modelVariables))
+        rows.append(row)
+    rows.append(_row("C library", folder / "libjostle_c.so", native))
+    rows.append(_row("command line", folder / "jostle", native))
+    return rows
 
 
-def _checked(library: Path) -> str:
-    found = needs(library)
+def tools() -> list[Row]:
+    """What the libraries are built with."""
+    rust = _run("rustc", "--version").split()[1]
+    packages = [{"tool": name, "version": metadata.version(name)} for name in ("cargo-zigbuild", "ziglang")]
+    return [{"tool": "rustc", "version": rust}, *packages]
+
+
+def _row(name: str, file: Path, native: Path) -> Row:
+    found = needs(file)
     foreign = found.libraries - SYSTEM
     if found.glibc > OLDEST_GLIBC or foreign:
-        raise LabError(f"{library} needs glibc {found.version} and {sorted(foreign)}. Build it with scripts/release")
-    short = sorted(name.split(".")[0] for name in found.libraries if not name.startswith("ld-"))
-    return f"{found.version} | {', '.join(short)}"
+        raise LabError(f"{file} needs glibc {found.version} and {sorted(foreign)}. Build it with scripts/release")
+    row = dict.fromkeys(COLUMNS, "")
+    row |= {"name": name, "bytes": str(file.stat().st_size), "glibc": found.version, "libraries": _short(found)}
+    twin = native / file.name
+    if twin.is_file():
+        plain = needs(twin)
+        row |= {"native_bytes": str(twin.stat().st_size), "native_glibc": plain.version}
+        row["native_libraries"] = _short(plain)
+    return row
+
+
+def _short(found: Needs) -> str:
+    return " ".join(sorted(name.split(".")[0] for name in found.libraries if not name.startswith("ld-")))
 
 
 def _identifier(fmu: Path) -> str:

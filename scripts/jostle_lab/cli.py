@@ -7,7 +7,7 @@ import typer
 
 from jostle_lab import protocol
 from jostle_lab.accelerometer import Accelerometer
-from jostle_lab.binaries import release_table, strangers
+from jostle_lab.binaries_command import binaries, verify
 from jostle_lab.compare import compare_exchanges
 from jostle_lab.coupling import Exchange
 from jostle_lab.driver import CARRIED_MASSES, GBS_250F38CP01_04
@@ -207,17 +207,8 @@ def peers(
         typer.echo(f"{case:14} {ours:10.2f} {theirs:12.2f} {ratio:6.2f}")
 
 
-@app.command()
-def binaries(
-    folder: Annotated[Path, typer.Argument(help="Folder that scripts/release made.")] = Path("build/release"),
-    symbols: Annotated[Path | None, typer.Option(help="Folder of the same libraries with their symbols.")] = None,
-) -> None:
-    """Print the size of each FMU and library, and what it needs; refuse what needs more than it may."""
-    if symbols is not None:
-        for library in sorted(symbols.glob("libjostle_*.so")):
-            if library.stem != "libjostle_c" and (found := strangers(library)):
-                raise LabError(f"{library} holds {len(found)} symbols of other scenes, such as {found[0]}")
-    typer.echo(release_table(folder))
+app.command()(binaries)
+app.command()(verify)
 
 
 def _present(folder: Path) -> None:

@@ -25,7 +25,7 @@ use super::{documentation, icon, model_description, reference, terminals, token}
 use crate::error::{Error, Result};
 use crate::scene::{Card, Choice, Scene, Variable};
 
-const MIT: &str = include_str!("../../LICENSE-MIT");
+pub(super) const MIT: &str = include_str!("../../LICENSE-MIT");
 const APACHE: &str = include_str!("../../LICENSE-APACHE");
 
 /// A scene without its type: all that a bundle says about it.
@@ -43,6 +43,8 @@ pub struct Component {
     pub arrays: bool,
     /// When the FMU was made, as `2026-11-24T06:00:00Z`; none where the same bytes are wanted each time.
     pub date: Option<String>,
+    /// What each computed row depends on at first ([`Scene::initial_dependencies`]).
+    pub initial_dependencies: fn(&str) -> Option<Vec<&'static str>>,
     /// Runs the scene for its reference trajectory.
     record: fn(Choice) -> Result<String>,
 }
@@ -70,6 +72,7 @@ impl Component {
             events: S::EVENTS,
             arrays: false,
             date: None,
+            initial_dependencies: S::initial_dependencies,
             record: reference::record::<S>,
         })
     }

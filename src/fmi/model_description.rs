@@ -2,19 +2,20 @@
 //!
 //! Guarantees: the start values are those of a new instance, the capability flags say what is there and no more, and the
 //! same input gives the same bytes (the date is part of the input). Outputs depend on no input at the same instant: they
-//! change in a step only, so that an importer need not look for algebraic loops. When initialisation ends they may depend
-//! on everything, which the standards say by leaving the dependencies out.
+//! change in a step only, so that an importer need not look for algebraic loops. While the component is initialised they
+//! depend on the parameters and inputs that the scene names, and on no others; a scene that names none leaves the list out,
+//! which the standards read as all.
 
 mod types;
 mod variables;
 
 use std::io;
 
-use super::bundle::Component;
+use super::bundle::{Component, MIT};
 use super::life_cycle::Version;
 use super::xml::{self, Attributes, Xml, number};
-use super::{LOG_CATEGORIES, arrays, derivatives, value_reference};
-use crate::scene::{Card, Causality, Table, Variable};
+use super::{LOG_CATEGORIES, TIME_REFERENCE, arrays, derivatives, value_reference};
+use crate::scene::{Card, Causality, TIME, Table, Variable};
 
 /// SPDX expression of the licence, as the model description states it.
 pub const LICENSE: &str = env!("CARGO_PKG_LICENSE");
@@ -39,8 +40,8 @@ pub fn write(component: &Component, version: Version) -> String {
             xml::empty(xml, "DefaultExperiment", &experiment(card))?;
             xml::element(xml, "ModelVariables", &vec![], |xml| variables::write(xml, &sheet))?;
             xml::element(xml, "ModelStructure", &vec![], |xml| match version {
-                Version::Two => structure_2(xml, &sheet),
-                Version::Three => structure_3(xml, &sheet),
+                Version::Two => structure_2(xml, &sheet, component),
+                Version::Three => structure_3(xml, &sheet, component),
             })
         })
     })
@@ -58,6 +59,7 @@ fn root(component: &Component, version: Version) -> Attributes {
         (token_name, component.token()),
         ("description", card.description.into()),
         ("version", env!("CARGO_PKG_VERSION").into()),
+        ("copyright", copyright().into()),
         ("license", LICENSE.into()),
         ("generationTool", concat!("jostle ", env!("CARGO_PKG_VERSION")).into()),
     ];
@@ -65,6 +67,12 @@ fn root(component: &Component, version: Version) -> Attributes {
     attributes.extend(date.map(|date| ("generationDateAndTime", date.clone())));
     attributes.push(("variableNamingConvention", "structured".into()));
     attributes
+}
+
+/// The line of the licence that says whose work it is.
+fn copyright() -> &'static str {
+    let mut lines = MIT.lines();
+    lines.find(|line| line.starts_with("Copyright")).unwrap_or_default()
 }
 
 /// Every flag is written, those that are the default too, so that a reader need not know the defaults.
@@ -181,21 +189,42 @@ fn index(position: usize) -> (&'static str, String) {
     ("index", (position + 2).to_string())
 }
 
-fn structure_2(xml: &mut Xml, sheet: &Sheet<'_>) -> io::Result<()> {
+/// The attribute `dependencies` of the row at `position` during initialisation, in the order that FMI 2.0 asks for; none
+/// where the scene does not say. `known` is what a row is called by; the time is called `time`.
+fn initial_dependencies(
+    sheet: &Sheet<'_>,
+    component: &Component,
+    position: usize,
+    known: impl Fn(usize) -> String,
+    time: String,
+) -> Attributes {
+    let Some(names) = (component.initial_dependencies)(&sheet.rows[position].name) else {
+        return Attributes::new();
+    };
+    let of_time = names.contains(&TIME).then_some(time);
+    let mut positions: Vec<usize> = names.iter().filter_map(|name| sheet.table.position(name)).collect();
+    positions.sort_unstable();
+    positions.dedup();
+    let all: Vec<String> = of_time.into_iter().chain(positions.into_iter().map(known)).collect();
+    vec![("dependencies", all.join(" "))]
+}
+
+fn structure_2(xml: &mut Xml, sheet: &Sheet<'_>, component: &Component) -> io::Result<()> {
     xml::element(xml, "Outputs", &vec![], |xml| {
         sheet.chosen(is_output).try_for_each(|position| {
             xml::empty(xml, "Unknown", &vec![index(position), ("dependencies", String::new())])
         })
     })?;
     xml::element(xml, "InitialUnknowns", &vec![], |xml| {
-        let unknowns = sheet.chosen(is_computed);
-        unknowns
-            .map(index)
-            .try_for_each(|unknown| xml::empty(xml, "Unknown", &vec![unknown]))
+        sheet.chosen(is_computed).try_for_each(|position| {
+            let known = |position| index(position).1;
+            let of = initial_dependencies(sheet, component, position, known, "1".into());
+            xml::empty(xml, "Unknown", &[vec![index(position)], of].concat())
+        })
     })
 }
 
-fn structure_3(xml: &mut Xml, sheet: &Sheet<'_>) -> io::Result<()> {
+fn structure_3(xml: &mut Xml, sheet: &Sheet<'_>, component: &Component) -> io::Result<()> {
     let reference = |position: usize| ("valueReference", value_reference(position).to_string());
     sheet.chosen(is_output).try_for_each(|position| {
         xml::empty(
@@ -204,8 +233,9 @@ fn structure_3(xml: &mut Xml, sheet: &Sheet<'_>) -> io::Result<()> {
             &vec![reference(position), ("dependencies", String::new())],
         )
     })?;
-    let unknowns = sheet.chosen(is_computed);
-    unknowns
-        .map(reference)
-        .try_for_each(|unknown| xml::empty(xml, "InitialUnknown", &vec![unknown]))
+    sheet.chosen(is_computed).try_for_each(|position| {
+        let known = |position| reference(position).1;
+        let of = initial_dependencies(sheet, component, position, known, TIME_REFERENCE.to_string());
+        xml::empty(xml, "InitialUnknown", &[vec![reference(position)], of].concat())
+    })
 }

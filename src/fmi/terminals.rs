@@ -2,12 +2,18 @@
 //!
 //! An input that comes with its rate is one side of a flange: a motion, a torque. The variables that share its prefix (`base.`
 //! of `base.displacement`) make one terminal, named by the prefix; without a prefix, such as `torque`, its name is the
-//! terminal's.
+//! terminal's. What a torque turns, the disk of such a scene, is the other side of its flange.
 
 use std::collections::BTreeSet;
 
 use super::{derivatives, xml};
 use crate::scene::{Causality, Table, Variable};
+
+/// Outputs of the disk that a torque turns, and what they are at its flange.
+const TURNED: [(&str, &str); 2] = [
+    ("disk.angle[1]", "angle"),
+    ("disk.angular_velocity[1]", "angular_velocity"),
+];
 
 /// The file; without inputs it states the icon alone.
 pub fn write(rows: &[Variable]) -> String {
@@ -55,7 +61,8 @@ fn terminal(xml: &mut xml::Xml, flange: &str, rows: &[Variable]) -> std::io::Res
     xml::element(xml, "Terminal", &about, |xml| {
         for row in rows {
             let signal = matches!(row.causality, Causality::Input | Causality::Output);
-            let (prefix, member) = split(&row.name);
+            let turned = TURNED.iter().find(|(name, _)| flange == "torque" && *name == row.name);
+            let (prefix, member) = turned.map_or_else(|| split(&row.name), |(_, member)| (flange, *member));
             if signal && prefix == flange {
                 let attributes = vec![
                     ("variableName", row.name.clone()),
@@ -91,6 +98,8 @@ mod tests {
             input("measure.mark"),
             output("base.reaction_force"),
             output("energy.lost"),
+            output("disk.angle[1]"),
+            output("disk.x[1]"),
         ]);
         assert_eq!(text.matches("<Terminal ").count(), 2);
         for (variable, member) in [
@@ -98,12 +107,16 @@ mod tests {
             ("base.reaction_force", "reaction_force"),
             ("torque", "torque"),
             ("torque.rate", "rate"),
+            ("disk.angle[1]", "angle"),
         ] {
             let member = format!(r#"variableName="{variable}" memberName="{member}""#);
             assert!(text.contains(&member), "{text}");
         }
         assert!(
-            !text.contains("energy") && !text.contains("measure") && !write(&[output("torque")]).contains("Terminals>")
+            !text.contains("disk.x")
+                && !text.contains("energy")
+                && !text.contains("measure")
+                && !write(&[output("torque")]).contains("Terminals>")
         );
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::drive::{Drive, FollowsInput, Sine};
 use crate::error::Result;
 
-use crate::scene::{Unit, Values, Variable};
+use crate::scene::{TIME, Unit, Values, Variable};
 
 /// A motion of the base that a scene can be bundled with.
 pub trait BaseDrive: Drive {
@@ -13,6 +13,13 @@ pub trait BaseDrive: Drive {
     const NAME: &'static str;
     /// Whether inputs steer it, so that [`BaseDrive::aim`] changes it.
     const STEERED: bool;
+
+    /// What the displacement at the start depends on, as in [`Scene::initial_dependencies`](crate::scene::Scene).
+    const DISPLACEMENT_AT_START: &'static [&'static str];
+    /// What the acceleration at the start depends on.
+    const ACCELERATION_AT_START: &'static [&'static str];
+    /// What [`BaseDrive::frequency`] depends on.
+    const FREQUENCY: &'static [&'static str];
 
     /// Parameters and inputs that it adds to a scene.
     fn variables() -> Vec<Variable>;
@@ -33,6 +40,9 @@ pub trait BaseDrive: Drive {
 impl BaseDrive for FollowsInput {
     const NAME: &'static str = "input";
     const STEERED: bool = true;
+    const DISPLACEMENT_AT_START: &'static [&'static str] = &["base.displacement"];
+    const ACCELERATION_AT_START: &'static [&'static str] = &[];
+    const FREQUENCY: &'static [&'static str] = &[];
 
     fn variables() -> Vec<Variable> {
         vec![
@@ -77,6 +87,9 @@ impl BaseDrive for FollowsInput {
 impl BaseDrive for Sine {
     const NAME: &'static str = "sine";
     const STEERED: bool = false;
+    const DISPLACEMENT_AT_START: &'static [&'static str] = &[TIME, "drive.amplitude", "drive.frequency", "drive.phase"];
+    const ACCELERATION_AT_START: &'static [&'static str] = Self::DISPLACEMENT_AT_START;
+    const FREQUENCY: &'static [&'static str] = &["drive.frequency"];
 
     fn variables() -> Vec<Variable> {
         vec![

@@ -28,6 +28,17 @@ pub use simulation::{Saved, Simulation};
 pub use values::{OutputWriter, Table, Values};
 pub use variables::{Causality, Kind, Quantity, Unit, Value, Variable};
 
+/// Name of the independent variable of every component.
+pub const TIME: &str = "time";
+
+/// Name without the index at its end: `disk.x` of `disk.x[3]`.
+pub fn stem(name: &str) -> &str {
+    match name.strip_suffix(']').and_then(|rest| rest.rsplit_once('[')) {
+        Some((stem, _)) => stem,
+        None => name,
+    }
+}
+
 /// What is decided when a component is bundled and can be decided no later, since it changes the list of variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, serde::Deserialize)]
 pub struct Choice {
@@ -86,6 +97,13 @@ pub trait Scene: Sized + Send + 'static {
 
     /// The rows for this choice: parameters, then inputs, then calculated parameters and outputs.
     fn variables(choice: Choice) -> Vec<Variable>;
+
+    /// What the computed row called `name` depends on while the scene is initialised: names of parameters and inputs, and
+    /// [`TIME`] where the start time matters; names that are no rows do not count. `None` says that it may be all of them.
+    /// One list for all rows `name[1]`, `name[2]`, ... and for any number of disks. Held by `tests/initial_unknowns.rs`.
+    fn initial_dependencies(_name: &str) -> Option<Vec<&'static str>> {
+        None
+    }
 
     /// Builds the scene at `start_time` \[s\] from the parameters among `values` and the inputs as they stand.
     ///

@@ -3,6 +3,7 @@
 mod equations;
 pub mod event_driven;
 pub mod hard;
+mod initial;
 mod rows;
 pub mod soft;
 
@@ -247,6 +248,10 @@ impl<E: SoftEngine> Scene for SoftPacking<E> {
 
     fn variables(choice: Choice) -> Vec<Variable> {
         rows::rows(choice, E::parameters(), E::Drive::variables())
+    }
+
+    fn initial_dependencies(name: &str) -> Option<Vec<&'static str>> {
+        Some(initial::of_soft::<E::Drive>(name))
     }
 
     fn new(choice: Choice, start_time: f64, values: &Values) -> Result<Self> {

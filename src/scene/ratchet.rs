@@ -2,6 +2,7 @@
 
 mod equations;
 mod fields;
+mod initial;
 mod rows;
 mod start;
 
@@ -259,6 +260,10 @@ where
 
     fn variables(choice: Choice) -> Vec<Variable> {
         rows::rows(choice, D::variables())
+    }
+
+    fn initial_dependencies(name: &str) -> Option<Vec<&'static str>> {
+        Some(initial::dependencies::<D>(name))
     }
 
     fn new(choice: Choice, start_time: f64, values: &Values) -> Result<Self> {

@@ -4,6 +4,7 @@
 
 mod drives;
 mod equations;
+mod initial;
 mod outputs;
 mod rows;
 
@@ -211,6 +212,10 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
 
     fn variables(_choice: Choice) -> Vec<Variable> {
         rows::rows(E::variables(), E::outputs())
+    }
+
+    fn initial_dependencies(name: &str) -> Option<Vec<&'static str>> {
+        Some(initial::dependencies::<E>(name))
     }
 
     fn new(_choice: Choice, start_time: f64, values: &Values) -> Result<Self> {

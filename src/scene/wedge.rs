@@ -5,6 +5,7 @@
 
 mod engine;
 mod equations;
+mod initial;
 mod rigid;
 mod rows;
 mod soft;
@@ -119,6 +120,10 @@ impl<E: Engine> Scene for Wedge<E> {
 
     fn variables(_choice: Choice) -> Vec<Variable> {
         rows::rows(E::parameters(), E::drive(), E::counts())
+    }
+
+    fn initial_dependencies(name: &str) -> Option<Vec<&'static str>> {
+        Some(initial::dependencies(name, E::AT_START))
     }
 
     fn new(_choice: Choice, start_time: f64, values: &Values) -> Result<Self> {

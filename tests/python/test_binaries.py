@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 from conftest import ROOT
 from jostle_lab.binaries import OLDEST_GLIBC, SYSTEM, needs, scenes, strangers
+from jostle_lab.errors import LabError
+from jostle_lab.verify import in_a_child
 
 RELEASE = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release"
 LIBRARIES = sorted(RELEASE.glob("libjostle_*.so"))
@@ -48,3 +50,12 @@ def test_what_ships_runs_on_an_old_system(library: Path):
 def test_a_stripped_library_is_told():
     with pytest.raises(Exception, match="no symbol table"):
         strangers(RELEASE / "libjostle_packing.so")
+
+
+def abort(_fmu: Path) -> None:
+    os.abort()
+
+
+def test_a_process_that_a_panic_ends_is_told(tmp_path: Path):
+    with pytest.raises(LabError, match="ended its process with exit code -6"):
+        in_a_child(abort, tmp_path / "it.fmu")

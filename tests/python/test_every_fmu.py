@@ -13,6 +13,7 @@ from conftest import ROOT
 from fmpy import simulate_fmu
 from fmpy.validation import validate_fmu
 from fmu_client import describe, getter, in_fmpy
+from jostle_lab.binaries import scenes
 from lxml import etree
 
 JOSTLE = ROOT / "target/release/jostle"
@@ -37,6 +38,10 @@ COMPONENTS = [
     ("three_disk", "molecular-dynamics", "random-supports"),
     ("three_disk", "molecular-dynamics", "sine"),
 ]
+
+
+def test_no_component_is_forgotten() -> None:
+    assert sorted(COMPONENTS) == sorted(scenes(JOSTLE.with_name("libjostle_c.so")))
 
 
 @pytest.mark.parametrize(("scene", "engine", "drive"), COMPONENTS)
@@ -112,7 +117,7 @@ def terminals_fit_the_schema(fmu: Path, scene: str, drive: str) -> None:
     _, references = describe(fmu)
     assert members <= set(references)
     base = {"base.displacement", "base.velocity", "base.reaction_force"}
-    flange = {"torque", "torque.rate"} if scene == "three_disk" else base
+    flange = {"torque", "torque.rate", "disk.angle[1]", "disk.angular_velocity[1]"} if scene == "three_disk" else base
     assert (flange <= members) == (drive == "input")
     assert drive == "input" or not members
 

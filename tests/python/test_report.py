@@ -4,7 +4,7 @@ import math
 from pathlib import Path
 
 import pytest
-from jostle_lab import stability_page
+from jostle_lab import binaries_page, stability_page
 from jostle_lab.errors import LabError
 from jostle_lab.work_precision import Point, diagrams, draw_all, order, page, time_at
 
@@ -23,6 +23,12 @@ def test_committed_page_is_that_of_the_committed_data() -> None:
 def test_committed_stability_page_is_that_of_the_committed_data() -> None:
     written = stability_page.page(ROOT / "docs/stability")
     assert written == (ROOT / "docs/stability.md").read_text(), "write it anew: python -m jostle_lab stability"
+
+
+def test_committed_page_of_binaries_is_that_of_the_committed_data() -> None:
+    written = binaries_page.page(ROOT / "docs/binaries")
+    again = "write it anew: scripts/release, then python -m jostle_lab binaries --data docs/binaries"
+    assert written == (ROOT / "docs/binaries.md").read_text(), again
 
 
 def test_every_measured_case_has_a_small_picture(tmp_path: Path) -> None:

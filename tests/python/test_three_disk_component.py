@@ -1,15 +1,21 @@
 """The disk on two supports through fmpy: events where they are asked for, inputs held and interpolated."""
 
 import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from fmpy import simulate_fmu
+from fmpy import extract, read_model_description, simulate_fmu
+from fmpy.fmi3 import FMU3Slave
 
 ROOT = Path(__file__).parents[2]
 STATES = ["contact[1].state", "contact[2].state"]
 MOTION = ["disk.angle[1]", "disk.angular_velocity[1]", "disk.x[1]", "disk.y[1]", "energy.lost"]
+
+SLIPPING = {"tilt": 0.2, "torque.amplitude": 0.2, "torque.angular_frequency": 40.0, "contact.stiffness_ratio": 30.0}
 
 
 def bundle(folder: Path, version: int, drive: str) -> str:
@@ -22,9 +28,8 @@ def bundle(folder: Path, version: int, drive: str) -> str:
 def test_events_end_steps_where_the_importer_wants_it_and_change_nothing(tmp_path: Path) -> None:
     """Every change of a contact has a row of its own; the end is that of plain steps to the bit."""
     fmu = bundle(tmp_path, 3, "harmonic-torque")
-    settings = {"tilt": 0.2, "torque.amplitude": 0.2, "torque.angular_frequency": 40.0, "contact.stiffness_ratio": 30.0}
     outputs = [*MOTION, *STATES, "slips"]
-    common = {"stop_time": 0.25, "output_interval": 1 / 64, "start_values": settings, "output": outputs}
+    common = {"stop_time": 0.25, "output_interval": 1 / 64, "start_values": SLIPPING, "output": outputs}
     plain = simulate_fmu(fmu, **common)
     events = simulate_fmu(fmu, **common, use_event_mode=True, early_return_allowed=True)
     assert len(plain) == 17
@@ -36,6 +41,66 @@ def test_events_end_steps_where_the_importer_wants_it_and_change_nothing(tmp_pat
     changed = np.any([np.diff(events[name]) != 0 for name in STATES], axis=0)
     assert set(events["time"][1:][changed]) <= set(between)
     assert set(np.unique([events[name] for name in STATES])) <= {1, 2, 3, 4}
+
+
+@contextmanager
+def ready(
+    fmu: str, folder: Path, settings: dict[str, float], *, event_mode: bool
+) -> Iterator[tuple[Any, dict[str, int]]]:
+    """An initialised instance of FMI 3.0 by direct calls of fmpy, in event mode if that is used, and its references."""
+    description = read_model_description(fmu)
+    references = {variable.name: variable.valueReference for variable in description.modelVariables}
+    slave = FMU3Slave(
+        guid=description.guid,
+        unzipDirectory=extract(fmu, str(folder)),
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        instanceName="disk",
+    )
+    slave.instantiate(eventModeUsed=event_mode, earlyReturnAllowed=event_mode)
+    slave.setFloat64([references[name] for name in settings], list(settings.values()))
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    yield slave, references
+    slave.terminate()
+    slave.freeInstance()
+
+
+def handle_event(slave: Any) -> None:
+    """One round of event mode is enough, and no event is known ahead."""
+    assert slave.updateDiscreteStates()[:5] == (False,) * 5
+    slave.enterStepMode()
+
+
+def test_early_return_event_mode_and_on_by_direct_calls(tmp_path: Path) -> None:
+    """Steps that end at events, with event mode at each, give the bits of one step to the same end."""
+    fmu = bundle(tmp_path, 3, "harmonic-torque")
+    with ready(fmu, tmp_path / "plain", SLIPPING, event_mode=False) as (slave, references):
+        slave.doStep(0.0, 0.25)
+        observed = [references[name] for name in MOTION]
+        plain = slave.getFloat64(observed)
+        slips = slave.getInt32([references["slips"]])
+    with ready(fmu, tmp_path / "events", SLIPPING, event_mode=True) as (slave, references):
+        states = [references[name] for name in STATES]
+        handle_event(slave)
+        time, early_returns, changes = 0.0, 0, 0
+        while time < 0.25:
+            before = slave.getInt64(states)
+            end = min(time + 1 / 64, 0.25)
+            event, terminate, early, reached = slave.doStep(time, end - time)
+            assert not terminate
+            assert early == (reached < time + (end - time))
+            assert event or slave.getInt64(states) == before, "a contact changes at an event only"
+            if event:
+                changes += slave.getInt64(states) != before
+                early_returns += early
+                slave.enterEventMode()
+                values = slave.getFloat64(observed)
+                handle_event(slave)
+                assert slave.getFloat64(observed) == values, "event mode changes nothing by itself"
+            time = reached
+        assert slave.getFloat64(observed) == plain
+        assert slave.getInt32([references["slips"]]) == slips
+    assert early_returns >= changes >= slips[0] > 3
 
 
 @pytest.mark.parametrize("version", [2, 3])

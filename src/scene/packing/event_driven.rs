@@ -14,7 +14,7 @@ use crate::scene::{Card, Choice, Scene};
 use crate::scene::{OutputWriter, Values, Variable};
 
 use super::hard::{EitherModel, HardDisks, HardRun, START_GAP};
-use super::{NAME, disks_of, equations, masses_of, rows};
+use super::{NAME, disks_of, equations, initial, masses_of, rows};
 
 /// Event-driven packing whose base follows the inputs.
 pub type HardPackingOnInput = HardPacking<HardDisks<Moving<FollowsInput>>>;
@@ -129,6 +129,10 @@ impl<R: HardRun> Scene for HardPacking<R> {
 
     fn variables(choice: Choice) -> Vec<Variable> {
         rows::hard_rows(choice, R::Base::variables(), R::variables())
+    }
+
+    fn initial_dependencies(name: &str) -> Option<Vec<&'static str>> {
+        Some(initial::of_hard::<R::Base>(name))
     }
 
     fn new(choice: Choice, start_time: f64, values: &Values) -> Result<Self> {

@@ -6,7 +6,7 @@ use crate::drive::Sine;
 use crate::drive::excitation::{
     Excitation, HarmonicTorque, HeldTorque, NoiseSign, RandomSupports, SineSupports, SupportMotion, Vibration,
 };
-use crate::scene::{OutputWriter, Unit, Values, Variable};
+use crate::scene::{OutputWriter, TIME, Unit, Values, Variable};
 
 /// An excitation that the scene can be bundled with.
 pub trait ThreeDiskDrive: Excitation {
@@ -16,6 +16,19 @@ pub trait ThreeDiskDrive: Excitation {
     const IDENTIFIER: &'static str;
     /// One sentence.
     const DESCRIPTION: &'static str;
+
+    /// What the places of the supports depend on at the start, as in
+    /// [`Scene::initial_dependencies`](crate::scene::Scene::initial_dependencies).
+    const PLACES_AT_START: &'static [&'static str] = &[];
+    /// What their rates, and thus the forces of dashpots, depend on besides.
+    const RATES_AT_START: &'static [&'static str] = &[];
+    /// What [`ThreeDiskDrive::period`] depends on.
+    const PERIOD: &'static [&'static str] = &[];
+
+    /// What an output of its own depends on at the start.
+    fn output_at_start(_name: &str) -> Vec<&'static str> {
+        Vec::new()
+    }
 
     /// Parameters and inputs that it adds to the scene.
     fn variables() -> Vec<Variable>;
@@ -100,6 +113,14 @@ impl ThreeDiskDrive for HarmonicTorque {
     const NAME: &'static str = "harmonic-torque";
     const IDENTIFIER: &'static str = "jostle_three_disk_harmonic_torque";
     const DESCRIPTION: &'static str = "Disk on two supports that is turned by a harmonic torque";
+    const PERIOD: &'static [&'static str] = &["torque.angular_frequency"];
+
+    fn output_at_start(name: &str) -> Vec<&'static str> {
+        match name {
+            "torque.applied" => vec![TIME, "torque.amplitude", "torque.angular_frequency"],
+            _ => Vec::new(),
+        }
+    }
 
     fn variables() -> Vec<Variable> {
         vec![
@@ -167,6 +188,21 @@ impl ThreeDiskDrive for RandomSupports {
     const NAME: &'static str = "random-supports";
     const IDENTIFIER: &'static str = "jostle_three_disk_random_supports";
     const DESCRIPTION: &'static str = "Disk on two supports that vibrate randomly";
+    const PLACES_AT_START: &'static [&'static str] = &["seed", "support.noise", "support.amplitude"];
+    const RATES_AT_START: &'static [&'static str] = &["contact.normal_damping", "support.angular_frequency"];
+    const PERIOD: &'static [&'static str] = &["support.angular_frequency", "support.damping_ratio"];
+
+    fn output_at_start(name: &str) -> Vec<&'static str> {
+        let member = name.strip_prefix("support[").and_then(|rest| rest.split_once("]."));
+        let further: &[&str] = match member {
+            Some((_, "x" | "y")) => &[],
+            Some((_, "x_velocity" | "y_velocity")) => &["support.angular_frequency"],
+            Some((_, "angle")) => &["disk.radius"],
+            Some((_, "angular_velocity")) => &["disk.radius", "support.angular_frequency"],
+            _ => return Vec::new(),
+        };
+        [Self::PLACES_AT_START, further].concat()
+    }
 
     fn variables() -> Vec<Variable> {
         vec![
@@ -278,6 +314,24 @@ impl ThreeDiskDrive for SineSupports {
     const NAME: &'static str = "sine";
     const IDENTIFIER: &'static str = "jostle_three_disk_sine";
     const DESCRIPTION: &'static str = "Disk on two supports that vibrate sinusoidally";
+    const PLACES_AT_START: &'static [&'static str] = &[
+        TIME,
+        "drive.amplitude",
+        "drive.frequency",
+        "drive.phase",
+        "drive.phase_difference",
+        "drive.direction",
+    ];
+    const RATES_AT_START: &'static [&'static str] = &["contact.normal_damping"];
+    const PERIOD: &'static [&'static str] = &["drive.frequency"];
+
+    fn output_at_start(name: &str) -> Vec<&'static str> {
+        let of_left = |known: &&&str| **known != "drive.phase_difference";
+        match name {
+            "base.position" | "base.acceleration" => Self::PLACES_AT_START.iter().filter(of_left).copied().collect(),
+            _ => Vec::new(),
+        }
+    }
 
     fn variables() -> Vec<Variable> {
         vec![

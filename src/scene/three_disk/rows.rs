@@ -7,9 +7,10 @@ use crate::engine::three_disk::{Bench, Frame};
 use crate::error::{Error, Result};
 use crate::scene::{Unit, Values, Variable};
 
+/// P 4.1, left and right.
 const SHAPES: &[(&str, &str)] = &[
-    ("disks", "Disks of the radius of the upper one (P 4.1, left)"),
-    ("walls", "Straight walls: a disk in a wedge (P 4.1, right)"),
+    ("disks", "Disks of the radius of the upper one"),
+    ("walls", "Straight walls: a disk in a wedge"),
 ];
 
 const CONTACT_STATES: &[(&str, &str)] = &[

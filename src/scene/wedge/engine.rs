@@ -8,6 +8,8 @@ use crate::engine::Work;
 use crate::error::{Result, are_sane};
 use crate::scene::{OutputWriter, Values, Variable};
 
+use super::initial::AtStart;
+
 /// Disk and base at one instant; impulse and energies per mass of the disk.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
@@ -77,6 +79,9 @@ pub trait Engine: Sized + Send + 'static {
     const IDENTIFIER: &'static str;
     /// One sentence.
     const DESCRIPTION: &'static str;
+
+    /// What its outputs depend on at the start.
+    const AT_START: AtStart;
 
     /// Parameters of its contacts.
     fn parameters() -> Vec<Variable>;

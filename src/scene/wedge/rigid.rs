@@ -15,6 +15,7 @@ use crate::scene::base_drive::BaseDrive;
 use crate::scene::{Kind, OutputWriter, Unit, Values, Variable};
 
 use super::engine::{Energy, Engine, Look};
+use super::initial::AtStart;
 use super::{NAME, rows};
 
 /// The map of P 6.3.
@@ -150,6 +151,13 @@ impl Engine for Map {
     const IDENTIFIER: &'static str = "jostle_wedge_map";
     const DESCRIPTION: &'static str =
         "Disk that bounces in a wedge, by the map of its impacts with a random phase of the base";
+    /// The walls rest.
+    const AT_START: AtStart = AtStart {
+        place: &["seed"],
+        displacement: &[],
+        acceleration: &[],
+        frequency: &[],
+    };
 
     fn parameters() -> Vec<Variable> {
         vec![restitution()]
@@ -220,6 +228,12 @@ impl<D: BaseDrive + FirstHit> Engine for EventDriven<D> {
         "jostle_wedge_event_driven"
     };
     const DESCRIPTION: &'static str = "Disk that bounces in a vibrating wedge, exactly from impact to impact";
+    const AT_START: AtStart = AtStart {
+        place: &["seed"],
+        displacement: D::DISPLACEMENT_AT_START,
+        acceleration: D::ACCELERATION_AT_START,
+        frequency: &[],
+    };
 
     fn parameters() -> Vec<Variable> {
         let floor = "Smallest normal velocity with which a collision leaves the wall: ends the infinitely many collisions \

@@ -17,6 +17,7 @@ use crate::scene::packing::{chosen_time_step, refusal_of};
 use crate::scene::{OutputWriter, Unit, Values, Variable};
 
 use super::engine::{Energy, Engine, Look};
+use super::initial::AtStart;
 use super::{NAME, rows};
 
 /// Molecular dynamics with the integrator I in a wedge that moves with the drive D.
@@ -47,6 +48,12 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
         "jostle_wedge_molecular_dynamics"
     };
     const DESCRIPTION: &'static str = "Disk that bounces in a vibrating wedge, by molecular dynamics";
+    const AT_START: AtStart = AtStart {
+        place: &[],
+        displacement: D::DISPLACEMENT_AT_START,
+        acceleration: D::ACCELERATION_AT_START,
+        frequency: D::FREQUENCY,
+    };
 
     fn parameters() -> Vec<Variable> {
         vec![

@@ -2,8 +2,9 @@
 
 The loudspeaker starts to shake a packing at rest; the error is that of the base's motion over the first two periods,
 before chaos has made it a matter of chance, against the same loop so finely coupled that it is as good as one model.
-Two wirings: displacement and velocity, so that the base moves on the cubic that both tell; and displacement alone,
-velocity left at zero, as by an importer that connects one wire.
+Three wirings: displacement and velocity, so that the base moves on the cubic that both tell; displacement with its
+derivative by `fmi2SetRealInputDerivatives`, which is the same to the bit; and displacement alone, velocity left at zero, as
+by an importer that connects one wire.
 """
 
 from collections.abc import Callable
@@ -60,8 +61,28 @@ class DisplacementAlone:
         return self._grains.step(displacement, 0.0, step)
 
 
+class InputDerivative:
+    """Grains in an FMU of FMI 2.0, told the velocity as the derivative of the input `base.displacement`."""
+
+    def __init__(self, grains: Grains) -> None:
+        self._grains: Any = grains
+
+    def __getattr__(self, name: str) -> Any:
+        """Everything else is the grains' own."""
+        return getattr(self._grains, name)
+
+    def step(self, displacement: float, velocity: float, step: float) -> float:
+        """See `Grains.step`."""
+        self._grains.tell_rate(velocity)
+        return float(self._grains.step_on(displacement, step))
+
+
 Wiring = Callable[[Grains], Any]
-WIRINGS: dict[str, Wiring] = {"displacement and velocity": lambda grains: grains, "displacement": DisplacementAlone}
+WIRINGS: dict[str, Wiring] = {
+    "displacement and velocity": lambda grains: grains,
+    "input derivative": InputDerivative,
+    "displacement": DisplacementAlone,
+}
 
 
 def works(factory: Callable[[int], Grains]) -> list[Work]:

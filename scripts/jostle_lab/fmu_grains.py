@@ -250,6 +250,24 @@ class FmuGrains:
         self.costs["get and set"] += ready - started
         return float(self._read(self._force)[0])
 
+    def tell_rate(self, velocity: float) -> None:
+        """Tell the base's velocity as the derivative of its displacement, by `fmi2SetRealInputDerivatives`."""
+        if self.fmi_version != 2:
+            raise LabError(f"{self.path}: input derivatives are of FMI 2.0. Bundle it with `jostle fmu --fmi 2`.")
+        order, rate = ctypes.c_int(1), ctypes.c_double(velocity)
+        status = self._fmu.dll.fmi2SetRealInputDerivatives(
+            self._fmu.component, self._inputs.references, 1, ctypes.byref(order), ctypes.byref(rate)
+        )
+        self._check(status, "setting the derivative of the base's displacement")
+
+    def step_on(self, displacement: float, step: float) -> float:
+        """As `step`, with the velocity as it was told last."""
+        self.write("base.displacement", displacement)
+        status = self._do_step(self._fmu.component, self._time, step, 0)
+        self._check(status, "stepping")
+        self._advance_clock(step)
+        return float(self._read(self._force)[0])
+
     def _advance_clock(self, step: float) -> None:
         """Time is start + n h while h stays the same."""
         if step != self._step:

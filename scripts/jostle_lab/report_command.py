@@ -31,7 +31,9 @@ def report(
         list[Part] | None, typer.Option(help="Measure this part anew; may be repeated. Without it: only the page.")
     ] = None,
     program: Annotated[Path, typer.Option(help="The command line.")] = Path("target/release/jostle"),
-    fmu: Annotated[Path, typer.Option(help="Packing FMU of the shaker loop.")] = Path("build/packing.fmu"),
+    fmu: Annotated[Path, typer.Option(help="Packing FMU of the shaker loop, FMI 2.0.")] = Path(
+        "build/packing_fmi2.fmu"
+    ),
     kernel: Annotated[Path | None, typer.Option(help="C++ kernel to run side by side, such as refdem.cpp.")] = None,
     rounds: Annotated[int, typer.Option(min=1, max=100, help="Rounds; CPU times are medians over them.")] = 5,
 ) -> None:

@@ -40,6 +40,19 @@ def test_both_versions_give_the_same_bits(fmu2: Path, fmu3: Path):
         assert two.radii.tolist() == three.radii.tolist()
 
 
+def test_an_input_derivative_is_the_velocity_of_the_base(fmu2: Path, fmu3: Path):
+    amplitude = 3.0 * 9.8 / OMEGA**2
+    with closing(FmuGrains(fmu2, {"seed": 7})) as told, closing(FmuGrains(fmu2, {"seed": 7})) as set_:
+        for n in range(600):
+            displacement = amplitude * np.sin(OMEGA * n * STEP)
+            velocity = amplitude * OMEGA * np.cos(OMEGA * n * STEP)
+            told.tell_rate(velocity)
+            assert told.step_on(displacement, STEP) == set_.step(displacement, velocity, STEP)
+        assert state(told) == state(set_)
+    with closing(FmuGrains(fmu3)) as grains, pytest.raises(LabError, match="FMI 2.0"):
+        grains.tell_rate(0.1)
+
+
 def test_rollback_in_the_middle_of_a_run_gives_the_same_bits(fmu: Path):
     with closing(FmuGrains(fmu, {"seed": 3})) as rolled, closing(FmuGrains(fmu, {"seed": 3})) as straight:
         shake(rolled, 600)

@@ -3,8 +3,8 @@
 The loudspeaker starts to shake a packing at rest; the error is that of the base's motion over the first two periods,
 before chaos has made it a matter of chance, against the same loop so finely coupled that it is as good as one model.
 Three wirings: displacement and velocity, so that the base moves on the cubic that both tell; displacement with its
-derivative by `fmi2SetRealInputDerivatives`, which is the same to the bit; and displacement alone, velocity left at zero, as
-by an importer that connects one wire.
+derivative by `fmi2SetRealInputDerivatives`, which is the same to the bit; and displacement alone, velocity left at
+zero, as by an importer that connects one wire.
 """
 
 from collections.abc import Callable

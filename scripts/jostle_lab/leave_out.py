@@ -52,6 +52,9 @@ WORKLOADS = (
     Workload("soft packing, no skin", "stiffness_ratio = 0", f"{SOFT} --set contact.stiffness_ratio=0", 0.3, 0.34),
     Workload("soft packing, base at rest", "drive.amplitude = 0", f"{SOFT} --set drive.amplitude=0", 0.3, 0.34),
     Workload("soft packing, one disk", "--disks 1", f"{SOFT} --disks 1", 0.3, 0.6),
+    Workload(
+        "located packing", "60 disks, located events", "packing --engine molecular-dynamics-located", 0.3, 0.32
+    ),
     Workload("hard packing", "60 disks on a moving bottom", HARD, 0.5, 0.7),
     Workload("hard packing, no friction", "contact.friction = 0", f"{HARD} --set contact.friction=0", 0.5, 0.7),
     Workload("hard packing, random phase", "bottom at rest", f"{HARD} --set base.model=random_phase", 0.5, 0.7),
@@ -59,6 +62,7 @@ WORKLOADS = (
     Workload("wedge, map", "one disk, walls at rest, random phase", f"{WEDGE} map", 10.0, 60.0),
     Workload("wedge, event-driven", "one disk, moving walls", f"{WEDGE} event-driven", 10.0, 60.0),
     Workload("wedge, soft", "one disk, moving walls, lasting contacts", f"{WEDGE} molecular-dynamics", 0.5, 0.9),
+    Workload("three disks", "one disk on two supports", "three_disk", 0.5, 1.5),
     Workload("ratchet", "20 disks in a periodic cell on teeth", "ratchet --disks 20", 1.0, 3.0),
     Workload(
         "ratchet, no friction", "collision.friction = 0", "ratchet --disks 20 --set collision.friction=0", 1.0, 3.0

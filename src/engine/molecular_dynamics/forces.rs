@@ -55,22 +55,42 @@ impl<'a> Bodies<'a> {
 /// The tangential force on the centres is `tau (R_a + R_b) / r` while the torques have the arms R_a and R_b: so
 /// angular momentum is kept when disks overlap, and the skin is elastic in the strict sense, force = -gradient.
 pub fn between_disks(laws: &Laws, pairs: &mut [Pair], bodies: Bodies<'_>, forces: &mut [[f64; 3]], sums: &mut Sums) {
+    match laws.grips {
+        true => between::<true>(laws, pairs, bodies, forces, sums),
+        false => between::<false>(laws, pairs, bodies, forces, sums),
+    }
+}
+
+#[inline(always)]
+fn between<const SKIN: bool>(
+    laws: &Laws,
+    pairs: &mut [Pair],
+    bodies: Bodies<'_>,
+    forces: &mut [[f64; 3]],
+    sums: &mut Sums,
+) {
     let forces = &mut forces[..bodies.radii.len()];
     let (twos, rest) = pairs.as_chunks_mut();
     for two in twos {
-        two_pairs(laws, two, bodies, forces, sums);
+        two_pairs::<SKIN>(laws, two, bodies, forces, sums);
     }
     if let [last] = rest {
         // A second pair that cannot touch fills the place.
         let mut two = [*last; 2];
         (two[1].reach, two[1].skin) = (0.0, SkinMemory::OPEN);
-        two_pairs(laws, &mut two, bodies, forces, sums);
+        two_pairs::<SKIN>(laws, &mut two, bodies, forces, sums);
         *last = two[0];
     }
 }
 
 #[inline(always)]
-fn two_pairs(laws: &Laws, pairs: &mut [Pair; 2], bodies: Bodies<'_>, forces: &mut [[f64; 3]], sums: &mut Sums) {
+fn two_pairs<const SKIN: bool>(
+    laws: &Laws,
+    pairs: &mut [Pair; 2],
+    bodies: Bodies<'_>,
+    forces: &mut [[f64; 3]],
+    sums: &mut Sums,
+) {
     let Bodies { places, rates, radii } = bodies;
     let first = [pairs[0].first as usize, pairs[1].first as usize];
     let second = [pairs[0].second as usize, pairs[1].second as usize];
@@ -94,26 +114,45 @@ fn two_pairs(laws: &Laws, pairs: &mut [Pair; 2], bodies: Bodies<'_>, forces: &mu
     };
     let [one, other] = pairs;
     let skins = [&mut one.skin, &mut other.skin];
-    let (normal, tangential) = laws.act(&contact, skins, sums, || (ux * ny - uy * nx) * lever + around(rates));
+    let (normal, tangential) = laws.act::<SKIN>(&contact, skins, sums, || (ux * ny - uy * nx) * lever + around(rates));
 
     let sideways = tangential * lever;
     let fx = (normal * nx + sideways * ny).to_array();
     let fy = (normal * ny - sideways * nx).to_array();
-    let (ta, tb) = ((tangential * ra).to_array(), (tangential * rb).to_array());
     for k in 0..2 {
         let force = &mut forces[first[k]];
         force[0] += fx[k];
         force[1] += fy[k];
-        force[2] += ta[k];
         let force = &mut forces[second[k]];
         force[0] -= fx[k];
         force[1] -= fy[k];
-        force[2] += tb[k];
+    }
+    if SKIN {
+        let (ta, tb) = ((tangential * ra).to_array(), (tangential * rb).to_array());
+        for k in 0..2 {
+            forces[first[k]][2] += ta[k];
+            forces[second[k]][2] += tb[k];
+        }
     }
 }
 
 /// Adds the forces of the walls to `forces`, and each wall's own sum (x, y) to `from_walls`, which lists them flat.
 pub fn at_walls(
+    laws: &Laws,
+    at_walls: &mut [AtWall],
+    (walls, base): (&[Wall], Motion),
+    bodies: Bodies<'_>,
+    ours: (&mut [[f64; 3]], &mut [f64]),
+    sums: &mut Sums,
+) {
+    match laws.grips {
+        true => beside_walls::<true>(laws, at_walls, (walls, base), bodies, ours, sums),
+        false => beside_walls::<false>(laws, at_walls, (walls, base), bodies, ours, sums),
+    }
+}
+
+#[inline(always)]
+fn beside_walls<const SKIN: bool>(
     laws: &Laws,
     at_walls: &mut [AtWall],
     (walls, base): (&[Wall], Motion),
@@ -125,7 +164,7 @@ pub fn at_walls(
     let (from_walls, _) = from_walls.as_chunks_mut();
     let (twos, rest) = at_walls.as_chunks_mut();
     for two in twos {
-        two_at_walls(
+        two_at_walls::<SKIN>(
             laws,
             two,
             (walls, base),
@@ -138,7 +177,7 @@ pub fn at_walls(
     if let [last] = rest {
         let mut two = [*last; 2];
         two[1].skin = SkinMemory::OPEN;
-        two_at_walls(
+        two_at_walls::<SKIN>(
             laws,
             &mut two,
             (walls, base),
@@ -153,7 +192,7 @@ pub fn at_walls(
 
 /// `aside` moves each disk away from its wall: a second one that is not there is infinitely far.
 #[inline(always)]
-fn two_at_walls(
+fn two_at_walls<const SKIN: bool>(
     laws: &Laws,
     near: &mut [AtWall; 2],
     (walls, base): (&[Wall], Motion),
@@ -182,7 +221,7 @@ fn two_at_walls(
     };
     let [one, other] = near;
     let skins = [&mut one.skin, &mut other.skin];
-    let (normal, tangential) = laws.act(&contact, skins, sums, || tx * vx + ty * vy + radius * rate(2));
+    let (normal, tangential) = laws.act::<SKIN>(&contact, skins, sums, || tx * vx + ty * vy + radius * rate(2));
 
     let fx = (normal * nx + tangential * tx).to_array();
     let fy = (normal * ny + tangential * ty).to_array();
@@ -191,7 +230,9 @@ fn two_at_walls(
         let force = &mut forces[disk[k]];
         force[0] += fx[k];
         force[1] += fy[k];
-        force[2] += torque[k];
+        if SKIN {
+            force[2] += torque[k];
+        }
         let force = &mut from_walls[wall[k]];
         force[0] += fx[k];
         force[1] += fy[k];

@@ -49,16 +49,16 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         let places = state.places();
         let laws = &self.setup.laws;
         let mut elastic = 0.0;
-        for pair in state.pairs.iter().filter(|pair| pair.skin.is_closed()) {
+        for pair in &state.pairs {
             let (a, b) = (places[pair.first as usize], places[pair.second as usize]);
             let overlap = pair.reach - (a[0] - b[0]).hypot(a[1] - b[1]);
-            elastic += laws.normal.energy(overlap) + laws.skin.energy(pair.skin.stretch);
+            elastic += laws.normal.energy(overlap.max(0.0)) + laws.skin.energy(pair.skin.stretch);
         }
-        for near in state.at_walls.iter().filter(|near| near.skin.is_closed()) {
+        for near in &state.at_walls {
             let [x, y, _] = places[near.disk as usize];
             let distance = self.setup.walls[near.wall as usize].distance(x, y, state.base.displacement);
             let overlap = self.radii[near.disk as usize] - distance;
-            elastic += laws.normal.energy(overlap) + laws.skin.energy(near.skin.stretch);
+            elastic += laws.normal.energy(overlap.max(0.0)) + laws.skin.energy(near.skin.stretch);
         }
         Energies {
             kinetic,

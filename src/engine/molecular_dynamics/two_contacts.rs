@@ -34,6 +34,8 @@ pub struct Contact {
 
 /// The contact laws, with what follows from them worked out once an evaluation.
 pub struct Laws {
+    /// Whether the skins can hold anything at all.
+    pub grips: bool,
     normal_stiffness: Two,
     damping: Two,
     skin_stiffness: Two,
@@ -50,6 +52,7 @@ impl Laws {
         // A skin without stiffness never slips: finite, so that no force times it is no number.
         let slack = (skin.friction / skin.stiffness).min(f64::MAX);
         Self {
+            grips: skin.friction > 0.0 && skin.stiffness > 0.0,
             normal_stiffness: Two::splat(normal.stiffness),
             damping: Two::splat(normal.damping),
             skin_stiffness: Two::splat(skin.stiffness),
@@ -62,9 +65,10 @@ impl Laws {
     /// Normal forces and tangential forces on the first bodies \[N\], zero for those that do not touch, with the skins'
     /// memory brought up to date. `surface_velocity` tells u_t \[m/s\] of the surfaces, needed at first touch only.
     ///
-    /// The formulas are those of [`crate::contact`].
+    /// The formulas are those of [`crate::contact`]. Without SKIN nothing acts along the surfaces, and nothing of them is
+    /// read or remembered.
     #[inline(always)]
-    pub fn act(
+    pub fn act<const SKIN: bool>(
         &self,
         contact: &Contact,
         skins: [&mut SkinMemory; 2],
@@ -75,6 +79,12 @@ impl Laws {
         let touches = contact.overlap.simd_gt(zero);
         let spring = self.normal_stiffness * contact.overlap;
         let normal_force = (spring - self.damping * contact.normal_velocity).fast_max(zero) & touches;
+
+        let lost = ((spring - normal_force) & touches) * contact.normal_velocity;
+        if !SKIN {
+            sums.add(lost, contact.overlap, touches);
+            return (normal_force, zero);
+        }
 
         let [one, other] = skins;
         let closed = two(|k| [one.direction[0], other.direction[0]][k]).simd_ne(zero)
@@ -100,9 +110,7 @@ impl Laws {
         // Slip heats by the mean of the forces before and after; both point against the slip.
         let before = Two::new([one.stretch, other.stretch]);
         sums.slip_heat += self.half_skin_stiffness * (stretch + before) * slip;
-        sums.dissipated_power += ((spring - normal_force) & touches) * contact.normal_velocity;
-        sums.deepest = contact.overlap.fast_max(sums.deepest);
-        sums.contacts += Two::splat(1.0) & touches;
+        sums.add(lost, contact.overlap, touches);
         let reference = ((reference + slip) & touches).to_array();
         let kept = stretch.to_array();
         (one.reference, other.reference) = (reference[0], reference[1]);
@@ -172,6 +180,13 @@ pub struct Sums {
 }
 
 impl Sums {
+    #[inline(always)]
+    fn add(&mut self, lost: Two, overlap: Two, touches: Two) {
+        self.dissipated_power += lost;
+        self.deepest = overlap.fast_max(self.deepest);
+        self.contacts += Two::splat(1.0) & touches;
+    }
+
     /// Both places together.
     pub fn tally(&self) -> Tally {
         let [one, other] = self.deepest.to_array();

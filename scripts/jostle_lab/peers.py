@@ -50,8 +50,8 @@ def compare_molecular_dynamics(
 ) -> list[tuple[str, float, float, float]]:
     """Rows of (case, ours [ns a disk and step], theirs, ratio), medians over `rounds` runs in turn.
 
-    Ours is built for any x86-64, theirs with `-O3 -march=native -ffast-math` for this machine. Each state is taken so many
-    times side by side in a box as much wider.
+    Ours is built for any x86-64, theirs with `-O3 -march=native -ffast-math` for this machine. Each state is taken so
+    many times side by side in a box as much wider.
     """
     example = "peer_molecular_dynamics"
     _run(["cargo", "build", "--release", "--example", example])

@@ -123,9 +123,9 @@ fn point(table: &Arc<Table>, random: &mut Pcg64) -> Values {
     for (position, row) in table.rows().iter().enumerate().filter(|(_, row)| given(row)) {
         let (chosen, factor) = (even(), even());
         let value = match (&row.kind, row.start()) {
-            // Some zeros are small beside their nominal value when they are not zero: heights, time steps.
+            // Of all sizes: time steps too long are refused, and heights far below the overlap at rest are told apart.
             (Kind::Real(quantity), Value::Real(0.0)) if chosen < 0.6 => {
-                Value::Real(quantity.nominal * 10_f64.powf(-6.0 * factor))
+                Value::Real(quantity.nominal * 10_f64.powf(2.0 - 6.0 * factor))
             }
             (Kind::Real(_), Value::Real(start)) if chosen < 0.6 => Value::Real((0.7 + 0.6 * factor) * start),
             (Kind::Enumeration { options, .. }, _) if chosen < 0.6 => {

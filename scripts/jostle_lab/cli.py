@@ -17,6 +17,7 @@ from jostle_lab.figures import draw_all
 from jostle_lab.fmu_grains import FmuFactory, fingerprint
 from jostle_lab.leave_out import leave_out
 from jostle_lab.loudspeaker import Loudspeaker
+from jostle_lab.notices import notices_command
 from jostle_lab.peers import compare, compare_molecular_dynamics
 from jostle_lab.ratchet.command import ratchet_demo
 from jostle_lab.ratchet.page import ratchet_page
@@ -209,6 +210,7 @@ def peers(
 
 app.command()(binaries)
 app.command()(verify)
+app.command("notices")(notices_command)
 
 
 def _present(folder: Path) -> None:

@@ -27,6 +27,8 @@ use crate::scene::{Card, Choice, Scene, Variable};
 
 pub(super) const MIT: &str = include_str!("../../LICENSE-MIT");
 const APACHE: &str = include_str!("../../LICENSE-APACHE");
+/// Of the crates that an FMU's library holds; written by `python -m jostle_lab notices`.
+const THIRD_PARTY: &str = include_str!("../../LICENSE-THIRD-PARTY.txt");
 
 /// A scene without its type: all that a bundle says about it.
 #[derive(Debug, Clone)]
@@ -174,7 +176,8 @@ pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Ve
 
 fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(&'static str, Vec<u8>)>> {
     let license = format!(
-        "SPDX-License-Identifier: {}\n\nThe texts are beside this file: LICENSE-MIT.txt, LICENSE-APACHE.txt.\n",
+        "SPDX-License-Identifier: {}\n\nThe texts are beside this file: LICENSE-MIT.txt, LICENSE-APACHE.txt.\n\
+         Notices of the software inside the library: LICENSE-THIRD-PARTY.txt.\n",
         model_description::LICENSE
     );
     let mut list = vec![
@@ -189,6 +192,7 @@ fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(
         ("documentation/licenses/license.txt", license.into_bytes()),
         ("documentation/licenses/LICENSE-MIT.txt", MIT.into()),
         ("documentation/licenses/LICENSE-APACHE.txt", APACHE.into()),
+        ("documentation/licenses/LICENSE-THIRD-PARTY.txt", THIRD_PARTY.into()),
         (reference::PATH, component.reference()?.into_bytes()),
     ];
     match version {

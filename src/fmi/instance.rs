@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::life_cycle::{Call, Phase};
 use super::snapshot::Clock;
-use super::{arrays, token};
+use super::{TOLERANCE, arrays, token};
 use crate::error::{Error, Result};
 use crate::scene::{Causality, Choice, Kind, Reached, Scene, Table, Value, Values};
 pub use values::Access;
@@ -120,7 +120,7 @@ impl<S: Scene> Instance<S> {
 
     /// Position and value that a tolerance gives to the parameter `tolerance`, if it is still at its start value.
     fn parameter_for(&self, tolerance: f64) -> Option<(usize, Value)> {
-        let position = self.values.table().position("tolerance")?;
+        let position = self.values.table().position(TOLERANCE)?;
         let row = &self.values.table().rows()[position];
         let untouched = row.causality == Causality::Parameter && self.values.get(position) == Some(row.start());
         let Kind::Real(quantity) = &row.kind else {

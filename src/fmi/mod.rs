@@ -46,6 +46,9 @@ pub const fn value_reference(position: usize) -> u32 {
 /// Value reference of the independent variable `time`.
 pub const TIME_REFERENCE: u32 = 0;
 
+/// Parameter to which an importer's relative tolerance goes, where a scene has it.
+pub const TOLERANCE: &str = "tolerance";
+
 /// Categories of log messages, as declared in the model description: name and description.
 pub const LOG_CATEGORIES: [(&str, &str); 3] = [
     (

@@ -14,8 +14,8 @@ use std::io;
 use super::bundle::{Component, MIT};
 use super::life_cycle::Version;
 use super::xml::{self, Attributes, Xml, number};
-use super::{LOG_CATEGORIES, TIME_REFERENCE, arrays, derivatives, value_reference};
-use crate::scene::{Card, Causality, TIME, Table, Variable};
+use super::{LOG_CATEGORIES, TIME_REFERENCE, TOLERANCE, arrays, derivatives, value_reference};
+use crate::scene::{Card, Causality, Kind, TIME, Table, Variable};
 
 /// SPDX expression of the licence, as the model description states it.
 pub const LICENSE: &str = env!("CARGO_PKG_LICENSE");
@@ -37,7 +37,7 @@ pub fn write(component: &Component, version: Version) -> String {
                     xml::empty(xml, "Category", &attributes)
                 })
             })?;
-            xml::empty(xml, "DefaultExperiment", &experiment(card))?;
+            xml::empty(xml, "DefaultExperiment", &experiment(card, rows))?;
             xml::element(xml, "ModelVariables", &vec![], |xml| variables::write(xml, &sheet))?;
             xml::element(xml, "ModelStructure", &vec![], |xml| match version {
                 Version::Two => structure_2(xml, &sheet, component),
@@ -116,12 +116,18 @@ fn capabilities(sheet: &Sheet<'_>, component: &Component) -> Attributes {
     attributes
 }
 
-fn experiment(card: &Card) -> Attributes {
-    vec![
+/// The tolerance is there where a scene has a parameter of that name, since an importer's tolerance goes to it.
+fn experiment(card: &Card, rows: &[Variable]) -> Attributes {
+    let tolerance = rows.iter().find_map(|row| match &row.kind {
+        Kind::Real(quantity) if row.name == TOLERANCE => Some(("tolerance", number(quantity.start))),
+        _ => None,
+    });
+    let times = [
         ("startTime", number(0.0)),
         ("stopTime", number(card.stop_time)),
         ("stepSize", number(card.step_size)),
-    ]
+    ];
+    times.into_iter().chain(tolerance).collect()
 }
 
 /// What the parts of the description have in common.

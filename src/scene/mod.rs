@@ -13,6 +13,7 @@ pub mod ratchet;
 mod recipe;
 mod simulation;
 pub mod three_disk;
+mod units;
 pub mod values;
 pub mod variables;
 pub mod wedge;
@@ -25,8 +26,9 @@ pub use any_simulation::{AnySimulation, Selection};
 #[cfg(feature = "toml")]
 pub use recipe::Recipe;
 pub use simulation::{Saved, Simulation};
+pub use units::Unit;
 pub use values::{OutputWriter, Table, Values};
-pub use variables::{Causality, Kind, Quantity, Unit, Value, Variable};
+pub use variables::{Causality, Kind, Quantity, Value, Variable};
 
 /// Name of the independent variable of every component.
 pub const TIME: &str = "time";

@@ -57,6 +57,10 @@ fn an_fmu_holds_what_each_standard_asks_for() {
         ] {
             assert!(archive.by_name(path).is_ok(), "{path}");
         }
+        let mut notices = String::new();
+        let path = "documentation/licenses/LICENSE-THIRD-PARTY.txt";
+        archive.by_name(path).unwrap().read_to_string(&mut notices).unwrap();
+        assert_eq!(notices, include_str!("../../LICENSE-THIRD-PARTY.txt"));
     }
 }
 

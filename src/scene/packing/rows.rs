@@ -121,7 +121,7 @@ fn parameters() -> Vec<Variable> {
 
 /// Parameter that sets the time step, or leaves it to the engine.
 pub fn time_step(description: &str) -> Variable {
-    Variable::parameter("time_step", Unit::Second, 0.0..=1.0, 0.0, description)
+    Variable::parameter("time_step", Unit::Second, 0.0..=1.0, 0.0, description).with_nominal(1e-5)
 }
 
 fn calculated(disks: u32) -> Vec<Variable> {

@@ -66,7 +66,8 @@ fn geometry() -> Vec<Variable> {
             -FRAC_PI_2..=FRAC_PI_2,
             0.0,
             "Angle theta_T by which the supports are turned counter-clockwise; smaller than support.angle",
-        ),
+        )
+        .with_nominal(0.1),
         Variable::parameter(
             "support.angle",
             Unit::Radian,
@@ -121,7 +122,8 @@ fn run() -> Vec<Variable> {
             0.0..=1e3,
             0.0,
             "Height above its rest from which the disk starts; 0 starts at rest in equilibrium, the skins not stretched",
-        ),
+        )
+        .with_nominal(1e-3),
         Variable::parameter(
             "disk.initial_angular_velocity",
             Unit::RadianPerSecond,
@@ -142,7 +144,8 @@ fn run() -> Vec<Variable> {
             0.0..=1.0,
             0.0,
             "Time step of the integration; 0: half a radian of the fastest mode",
-        ),
+        )
+        .with_nominal(1e-5),
     ]
 }
 

@@ -77,7 +77,8 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
                 0.0..=1.0,
                 0.0,
                 "Time step of the integration; 0: a hundredth of the shortest contact period",
-            ),
+            )
+            .with_nominal(1e-7),
         ]
     }
 

@@ -1,0 +1,133 @@
+"""`python -m jostle_lab notices`: whose code is linked into what ships, and the notices that must go with it."""
+
+import json
+import re
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from jostle_lab.errors import LabError
+
+ROOT = Path(__file__).parents[2]
+FILE = "LICENSE-THIRD-PARTY.txt"
+"""In the root of the repository, in each FMU, and beside the C library."""
+
+STANDARD_LIBRARY = Path(__file__).with_name("notices_of_rust.txt")
+"""Kept by hand: the Rust standard library is no package of cargo's."""
+
+PREFERRED = "MIT"
+"""Where a crate leaves the choice, this licence is taken: short, and the one that most of them offer."""
+
+HEAD = f"""Notices of the software that jostle's FMUs and its C library hold besides jostle itself.
+
+Written by `python -m jostle_lab notices` from Cargo.lock and the licence files of each crate; not to be edited by
+hand. Where a crate may be had under one of several licences, jostle takes it under {PREFERRED}.
+"""
+
+LICENCE_FILE = re.compile(r"(LICEN[CS]E|COPYING|UNLICENSE)", re.IGNORECASE)
+ALWAYS = re.compile(r"(COPYRIGHT|NOTICE)", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Crate:
+    """A package that is linked."""
+
+    name: str
+    version: str
+    licence: str
+    folder: Path
+
+    @property
+    def title(self) -> str:
+        """Name and version."""
+        return f"{self.name} {self.version}"
+
+
+def notices(root: Path = ROOT) -> str:
+    """The whole text for the workspace at `root`; it needs the sources that `cargo fetch` puts on this machine."""
+    metadata = json.loads(_cargo(root, "metadata", "--format-version", "1"))
+    packages = {(found["name"], found["version"]): found for found in metadata["packages"]}
+    own = {key for key, found in packages.items() if found["source"] is None}
+    fmus = [name for name, version in own if Path(packages[name, version]["manifest_path"]).parts[-3] == "fmu"]
+    in_fmus = linked(_tree(root, fmus)) - own
+    in_library = linked(_tree(root, ["jostle-c"])) - own
+    return compose(
+        [_crate(packages[key]) for key in sorted(in_fmus)],
+        [_crate(packages[key]) for key in sorted(in_library - in_fmus)],
+        STANDARD_LIBRARY.read_text(encoding="utf-8"),
+    )
+
+
+def linked(tree: str) -> set[tuple[str, str]]:
+    """Name and version of each package in the answer of `cargo tree --prefix none --format {p}`."""
+    return {(name, version) for name, version in re.findall(r"^(\S+) v(\S+)", tree, re.MULTILINE)}
+
+
+def compose(everywhere: Sequence[Crate], library_only: Sequence[Crate], standard_library: str) -> str:
+    """The text: two lists of crates, then each notice once with the crates that it belongs to."""
+    owners: dict[str, list[str]] = {}
+    for crate in [*everywhere, *library_only]:
+        for text in texts(crate):
+            owners.setdefault(text, []).append(crate.title)
+    rule = "-" * 80
+    blocks = [f"{rule}\n{', '.join(titles)}\n{rule}\n\n{text}\n" for text, titles in owners.items()]
+    lists = [
+        _list("In the FMUs and in the C library:", everywhere),
+        _list("In the C library alone:", library_only),
+    ]
+    return "\n".join([HEAD, *lists, *blocks, f"{rule}\n{_clean(standard_library)}\n"])
+
+
+def texts(crate: Crate) -> list[str]:
+    """The notices of a crate, each without blanks at the ends of its lines.
+
+    Of several licences to choose from only the preferred one; copyright and notice files always.
+    """
+    files = sorted(path for path in crate.folder.iterdir() if path.is_file())
+    licences = [path for path in files if LICENCE_FILE.match(path.name)]
+    if PREFERRED in re.split(r"\s+OR\s+|/", crate.licence):
+        licences = [path for path in licences if PREFERRED in path.name.upper()] or licences
+    if not licences:
+        raise LabError(f"{crate.title} has no licence file in {crate.folder}. Use a crate that brings its licence")
+    extra = [path for path in files if ALWAYS.match(path.name)]
+    return [_clean(path.read_text(encoding="utf-8")) for path in [*licences, *extra]]
+
+
+def notices_command(
+    out: Annotated[Path, typer.Option(help="File to write.")] = ROOT / FILE,
+) -> None:
+    """Write the notices of all crates that are linked into the FMUs and the C library."""
+    out.write_text(notices(), encoding="utf-8")
+    typer.echo(out)
+
+
+def _list(heading: str, crates: Sequence[Crate]) -> str:
+    width = max((len(crate.title) for crate in crates), default=0)
+    return "\n".join([heading, *(f"  {crate.title:{width}}  {crate.licence}" for crate in crates), ""])
+
+
+def _crate(package: dict[str, str]) -> Crate:
+    return Crate(package["name"], package["version"], package["license"] or "", Path(package["manifest_path"]).parent)
+
+
+def _clean(text: str) -> str:
+    return "\n".join(line.rstrip() for line in text.strip("\n").splitlines())
+
+
+def _tree(root: Path, packages: Sequence[str]) -> str:
+    """What is linked on any platform: neither build dependencies nor macros that run in the compiler."""
+    chosen = [argument for package in sorted(packages) for argument in ("--package", package)]
+    shown = ["--edges", "normal,no-proc-macro", "--target", "all", "--prefix", "none", "--format", "{p}"]
+    return _cargo(root, "tree", *chosen, *shown)
+
+
+def _cargo(root: Path, *arguments: str) -> str:
+    command = ["cargo", *arguments, "--locked", "--offline"]
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise LabError(f"cargo {arguments[0]} failed: {done.stderr.strip()[-400:]}. Try: cargo fetch --locked")
+    return done.stdout

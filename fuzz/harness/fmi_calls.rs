@@ -2,14 +2,15 @@
 //! one line. Whoever includes this file says in `super::library` which library is called.
 
 use std::ptr::{null, null_mut};
+use std::sync::LazyLock;
 
 use jostle::fmi::abi::common::{Opaque, Status};
 
-use super::fmi::{CALL_BACK, Importer, Slot, check, log3};
+use super::fmi::{CALL_BACK, Importer, Slot, Subject, check, log3};
 use super::hand::*;
 use super::library::fmi2::*;
 use super::library::fmi3::*;
-use super::library::{DISKS, LONGEST_STEP, Subject};
+use super::library::{LONGEST_STEP, Scene, choices};
 
 /// An argument of a call.
 trait Role {
@@ -195,8 +196,9 @@ const LIVES: &[Call] = &[
 ];
 
 pub fn run(bytes: &[u8]) {
+    static SUBJECT: LazyLock<Subject> = LazyLock::new(|| Subject::new::<Scene>(&choices()));
     CALL_BACK.set(Some(call_back));
-    let mut importer = Importer::new::<Subject>(bytes, DISKS, LONGEST_STEP);
+    let mut importer = Importer::new(bytes, &SUBJECT, LONGEST_STEP);
     instantiate(&mut importer);
     while !importer.hand.is_empty() {
         let index = usize::from(importer.hand.byte());
@@ -258,14 +260,14 @@ fn instantiate(importer: &mut Importer) {
     let token = if importer.hand.rarely(16) {
         importer.hand.text()
     } else {
-        importer.first_text()
+        importer.token()
     };
     let name = if importer.hand.rarely(16) {
         importer.hand.text()
     } else {
         c"name".as_ptr()
     };
-    let (logs, events) = (importer.hand.byte(), importer.hand.rarely(4) as u8);
+    let (logs, events) = (importer.hand.byte(), importer.hand.byte() & 1);
     let (early, wanted) = (importer.hand.byte() & 1, usize::from(importer.hand.rarely(16)));
     let slot = &importer.slots[index];
     slot.three.set(kind >= 6);
@@ -334,7 +336,7 @@ fn initialize(importer: &mut Importer) {
     }
 }
 
-/// Steps on from where an instance is. (FMI 2.0 tells the time by the independent variable as well.)
+/// Steps on from where an instance is, through event mode if there was an event. (FMI 2.0 tells the time by the independent variable as well.)
 fn walk(importer: &mut Importer) {
     let (slot, step) = (importer.hand.below(3), importer.step());
     let (pointer, three) = (importer.slots[slot].pointer.get(), importer.slots[slot].three.get());
@@ -346,7 +348,18 @@ fn walk(importer: &mut Importer) {
             check(fmi3GetFloat64(pointer, &0, 1, &mut now, 1));
             check(fmi3DoStep(pointer, now, step, 0, event, terminate, early, &mut reached));
             if flags[0] != 0 {
+                let [mut update, mut end, mut nominals, mut states, mut next] = [0_u8; 5];
                 check(fmi3EnterEventMode(pointer));
+                check(fmi3UpdateDiscreteStates(
+                    pointer,
+                    &mut update,
+                    &mut end,
+                    &mut nominals,
+                    &mut states,
+                    &mut next,
+                    &mut reached,
+                ));
+                check(fmi3EnterStepMode(pointer));
             }
         } else {
             check(fmi2GetReal(pointer, &0, 1, &mut now));

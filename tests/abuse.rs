@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use jostle::drive::{FollowsInput, Sine};
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
-use jostle::scene::packing::{PackingOnInput, PackingOnSine};
+use jostle::scene::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
 use jostle::scene::three_disk::{
     ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
@@ -362,6 +362,8 @@ macro_rules! scenes {
 scenes! {
     packing_on_sine: PackingOnSine, 12, 60;
     packing_on_input: PackingOnInput, 8, 40;
+    located_packing_on_sine: LocatedPackingOnSine, 12, 60;
+    located_packing_on_input: LocatedPackingOnInput, 8, 40;
     hard_packing_on_sine: HardPackingOnSine, 12, 60;
     hard_packing_on_input: HardPackingOnInput, 8, 40;
     wedge_map: WedgeMap, 20, 60;

@@ -252,11 +252,13 @@ fn create(caller: &mut Caller) {
 
 /// Steps on from where a simulation is.
 fn step(caller: &mut Caller) {
-    let (simulation, step, mut now) = (caller.simulation(), caller.hand.real(), 0.0);
+    let (simulation, step, mut now) = (caller.simulation(), caller.hand.duration(LONGEST_STEP), 0.0);
     // SAFETY: null, alive or memory that is none.
     unsafe {
         check(jostle_time(simulation, &mut now));
-        check(jostle_advance_to(simulation, now + step.min(LONGEST_STEP)));
+        let status = jostle_advance_to(simulation, now + step);
+        check(status);
+        count_step(status == JostleStatus::Ok && step > 0.0);
     }
 }
 

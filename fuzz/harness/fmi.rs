@@ -115,12 +115,7 @@ impl<'a> Importer<'a> {
 
     /// A step, mostly short.
     pub fn step(&mut self) -> f64 {
-        let step = self.hand.real();
-        if step.is_finite() && step > self.longest_step {
-            self.longest_step
-        } else {
-            step
-        }
+        self.hand.duration(self.longest_step)
     }
 
     pub fn state_slot(&mut self) -> *mut Opaque {

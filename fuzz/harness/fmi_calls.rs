@@ -346,7 +346,9 @@ fn walk(importer: &mut Importer) {
     unsafe {
         if three {
             check(fmi3GetFloat64(pointer, &0, 1, &mut now, 1));
-            check(fmi3DoStep(pointer, now, step, 0, event, terminate, early, &mut reached));
+            let status = fmi3DoStep(pointer, now, step, 0, event, terminate, early, &mut reached);
+            check(status);
+            count_step(status == Status::Ok);
             if flags[0] != 0 {
                 let [mut update, mut end, mut nominals, mut states, mut next] = [0_u8; 5];
                 check(fmi3EnterEventMode(pointer));
@@ -363,7 +365,9 @@ fn walk(importer: &mut Importer) {
             }
         } else {
             check(fmi2GetReal(pointer, &0, 1, &mut now));
-            check(fmi2DoStep(pointer, now, step, 0));
+            let status = fmi2DoStep(pointer, now, step, 0);
+            check(status);
+            count_step(status == Status::Ok);
         }
     }
 }

@@ -10,13 +10,19 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub const LONGEST: usize = 16;
 
 static CALLS: AtomicU64 = AtomicU64::new(0);
+static STEPS: AtomicU64 = AtomicU64::new(0);
 
 /// Counts a call into the library under test and says how many there were, now and then.
 pub fn count() {
     let calls = CALLS.fetch_add(1, Ordering::Relaxed) + 1;
     if calls.is_multiple_of(10_000) {
-        eprintln!("calls: {calls}");
+        eprintln!("calls: {calls} steps: {}", STEPS.load(Ordering::Relaxed));
     }
+}
+
+/// Counts a step forward in time that was done, among the calls.
+pub fn count_step(done: bool) {
+    STEPS.fetch_add(u64::from(done), Ordering::Relaxed);
 }
 
 /// Panics that a scene was told to do are none to report; any other ends the process, though the boundary catches it.
@@ -132,6 +138,18 @@ impl<'a> Hand<'a> {
             index if index < POOL.len() => POOL[index],
             index if index == POOL.len() => f64::from_bits(self.word()),
             _ => f64::from(self.byte()) / 64.0 - 2.0,
+        }
+    }
+
+    /// A duration: three in four are of some use, and none is longer than `longest`.
+    pub fn duration(&mut self, longest: f64) -> f64 {
+        const USEFUL: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-9, 0.01];
+        let index = self.below(8);
+        let duration = USEFUL.get(index).copied().unwrap_or_else(|| self.real());
+        if duration.is_finite() {
+            duration.min(longest)
+        } else {
+            duration
         }
     }
 

@@ -104,6 +104,15 @@ impl<'a> Importer<'a> {
         }
     }
 
+    /// A slot with an instance, if there is one.
+    pub fn live_slot(&mut self) -> usize {
+        let drawn = self.hand.below(3);
+        let mut slots = (0..3).map(|offset| (drawn + offset) % 3);
+        slots
+            .find(|slot| !self.slots[*slot].pointer.get().is_null())
+            .unwrap_or(drawn)
+    }
+
     /// A state, stale or foreign ones among them, or a number that is none.
     pub fn state(&mut self) -> Opaque {
         match self.hand.below(8) {

@@ -184,8 +184,11 @@ table! {
 /// Calls that must come in an order to get anywhere, more often than each single one.
 const LIVES: &[Call] = &[
     instantiate,
-    instantiate,
     initialize,
+    begin,
+    begin,
+    walk,
+    walk,
     walk,
     walk,
     walk,
@@ -193,13 +196,14 @@ const LIVES: &[Call] = &[
     refuse,
     free,
     set_up,
+    set_up,
 ];
 
 pub fn run(bytes: &[u8]) {
     static SUBJECT: LazyLock<Subject> = LazyLock::new(|| Subject::new::<Scene>(&choices()));
     CALL_BACK.set(Some(call_back));
     let mut importer = Importer::new(bytes, &SUBJECT, LONGEST_STEP);
-    instantiate(&mut importer);
+    begin(&mut importer);
     while !importer.hand.is_empty() {
         let index = usize::from(importer.hand.byte());
         match LIVES.get(index % 32) {
@@ -299,9 +303,18 @@ fn instantiate(importer: &mut Importer) {
     slot.pointer.set(pointer);
 }
 
+/// An instance from its making to its first step, with up to three parameters set, as a careful importer does it.
+fn begin(importer: &mut Importer) {
+    instantiate(importer);
+    for _ in 0..importer.hand.below(4) {
+        set_up(importer);
+    }
+    initialize(importer);
+}
+
 /// Sets parameters of one instance, valid ones for the most part.
 fn set_up(importer: &mut Importer) {
-    let slot = importer.hand.below(3);
+    let slot = importer.live_slot();
     let (reference, value) = (importer.hand.reference(), f64::from(importer.hand.byte()) / 32.0);
     let (pointer, three) = (importer.slots[slot].pointer.get(), importer.slots[slot].three.get());
     // SAFETY: null or alive; one reference, one value.
@@ -315,7 +328,7 @@ fn set_up(importer: &mut Importer) {
 }
 
 fn initialize(importer: &mut Importer) {
-    let slot = importer.hand.below(3);
+    let slot = importer.live_slot();
     let start = if importer.hand.rarely(4) {
         importer.hand.real()
     } else {
@@ -338,7 +351,7 @@ fn initialize(importer: &mut Importer) {
 
 /// Steps on from where an instance is, through event mode if there was an event. (FMI 2.0 tells the time by the independent variable as well.)
 fn walk(importer: &mut Importer) {
-    let (slot, step) = (importer.hand.below(3), importer.step());
+    let (slot, step) = (importer.live_slot(), importer.step());
     let (pointer, three) = (importer.slots[slot].pointer.get(), importer.slots[slot].three.get());
     let (mut now, mut reached, mut flags) = (0.0, 0.0, [0_u8; 3]);
     let [event, terminate, early] = &mut flags;

@@ -25,6 +25,7 @@ const SCENE: u32 = 10;
 macro_rules! scenes {
     ($($name:ident = $number:literal,)*) => {
         /// One of them.
+        #[allow(clippy::large_enum_variant)] // three of them live at a time
         pub enum AnyScene {$(
             $name($name),
         )*}
@@ -32,7 +33,7 @@ macro_rules! scenes {
         /// The state of one of them.
         #[derive(Clone, PartialEq, Serialize, Deserialize)]
         pub enum AnyState {$(
-            $name(<$name as Scene>::State),
+            $name(Box<<$name as Scene>::State>),
         )*}
 
         /// Each scene with one disk, and with three if it may have so many.
@@ -101,7 +102,7 @@ macro_rules! scenes {
 
             fn state(&self) -> AnyState {
                 match self {
-                    $(Self::$name(scene) => AnyState::$name(scene.state()),)*
+                    $(Self::$name(scene) => AnyState::$name(Box::new(scene.state())),)*
                 }
             }
 

@@ -126,6 +126,7 @@ pub fn describe(panic: &(dyn Any + Send)) -> String {
 }
 
 #[cfg(test)]
+#[allow(clippy::undocumented_unsafe_blocks)] // what each test does wrong or right is its name
 mod tests {
     use std::ptr::{null, null_mut};
     use std::sync::atomic::AtomicU32;

@@ -40,6 +40,7 @@ pub fn report_defects() {
 }
 
 /// Buffers that pointers lead to. Behind a raw pointer, since several are lent to one call.
+#[allow(dead_code)] // each library has functions of some types only
 pub struct Buffers {
     pub references: [u32; LONGEST],
     pub reals: [f64; LONGEST],

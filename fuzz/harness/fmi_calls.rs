@@ -312,19 +312,23 @@ fn begin(importer: &mut Importer) {
     initialize(importer);
 }
 
-/// Sets parameters of one instance, valid ones for the most part.
+/// Changes a parameter or an input of one instance by a factor, so that it is still valid for the most part.
 fn set_up(importer: &mut Importer) {
+    const FACTORS: [f64; 8] = [1.1, 0.9, 1.01, 0.5, 2.0, 0.0, -1.0, 1e3];
     let slot = importer.live_slot();
-    let (reference, value) = (importer.hand.reference(), f64::from(importer.hand.byte()) / 32.0);
+    let (reference, factor) = (importer.hand.reference(), FACTORS[importer.hand.below(FACTORS.len())]);
     let (pointer, three) = (importer.slots[slot].pointer.get(), importer.slots[slot].three.get());
+    let mut value = 0.0;
     // SAFETY: null or alive; one reference, one value.
-    check(unsafe {
+    unsafe {
         if three {
-            fmi3SetFloat64(pointer, &reference, 1, &value, 1)
+            check(fmi3GetFloat64(pointer, &reference, 1, &mut value, 1));
+            check(fmi3SetFloat64(pointer, &reference, 1, &(factor * value), 1));
         } else {
-            fmi2SetReal(pointer, &reference, 1, &value)
+            check(fmi2GetReal(pointer, &reference, 1, &mut value));
+            check(fmi2SetReal(pointer, &reference, 1, &(factor * value)));
         }
-    });
+    }
 }
 
 fn initialize(importer: &mut Importer) {

@@ -5,6 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::null_mut;
 
 use jostle::Result;
+use jostle::fmi::abi::handle::describe;
 use jostle::fmi::abi::memory;
 use jostle::scene::{AnySimulation, Recipe, Selection};
 
@@ -116,7 +117,7 @@ unsafe fn create(
     let told = match catch_unwind(AssertUnwindSafe(make)) {
         Ok(Ok(simulation)) => return handle::hand_out(simulation),
         Ok(Err(refusal)) => refusal.to_string(),
-        Err(panic) => handle::describe(&*panic),
+        Err(panic) => describe(&*panic),
     };
     // SAFETY: passed on.
     unsafe { text::write(&told, error, size) };

@@ -1,11 +1,9 @@
 //! What a simulation's pointer points to, and the way in and out of every call.
 
-use std::any::Any;
-use std::cell::UnsafeCell;
 use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
+use jostle::fmi::abi::handle::{Barred, Handle, describe};
 use jostle::scene::AnySimulation;
 use jostle::{Error, Result};
 
@@ -30,16 +28,13 @@ pub enum JostleStatus {
     NoSimulation = 5,
 }
 
-/// Tells a simulation from a pointer to something else, and from one that was freed (as far as that can be).
-const ALIVE: u64 = 0x6a6f_7374_6c65_4321;
-
 /// A simulation. Made by `jostle_new` or `jostle_new_from_toml`, ended by `jostle_free`.
 pub struct JostleSimulation {
-    magic: AtomicU64,
-    /// A call is under way. A second thread is refused instead of aliasing `inner`.
-    busy: AtomicBool,
-    inner: UnsafeCell<Inner>,
+    _handle: Held,
 }
+
+/// What it is behind its C name.
+type Held = Handle<Inner, 0x6a6f_7374_6c65_4321>;
 
 /// A simulation with what its C callers need.
 pub struct Inner {
@@ -65,16 +60,13 @@ pub enum Access {
 
 /// Gives a simulation to the caller.
 pub fn hand_out(simulation: AnySimulation) -> *mut JostleSimulation {
-    Box::into_raw(Box::new(JostleSimulation {
-        magic: AtomicU64::new(ALIVE),
-        busy: AtomicBool::new(false),
-        inner: UnsafeCell::new(Inner {
-            simulation,
-            listing: None,
-            failed: false,
-            error: String::new(),
-        }),
-    }))
+    let inner = Inner {
+        simulation,
+        listing: None,
+        failed: false,
+        error: String::new(),
+    };
+    Held::hand_out(inner).cast()
 }
 
 /// Frees a simulation. Null is ignored, and so is a simulation in which a thread is at work.
@@ -83,17 +75,7 @@ pub fn hand_out(simulation: AnySimulation) -> *mut JostleSimulation {
 /// `pointer` is null or a simulation that was not freed.
 pub unsafe fn free(pointer: *mut JostleSimulation) {
     // SAFETY: by the caller's promise.
-    let Some(handle) = (unsafe { alive(pointer) }) else {
-        return;
-    };
-    if handle.busy.swap(true, Ordering::Acquire) {
-        return;
-    }
-    handle.magic.store(0, Ordering::Relaxed);
-    // SAFETY: made by `Box::into_raw` in `hand_out` and, by the caller's promise, not freed before.
-    let boxed = unsafe { Box::from_raw(pointer) };
-    // A scene that panics when it is dropped has nobody left to tell.
-    let _ = catch_unwind(AssertUnwindSafe(|| drop(boxed)));
+    let _ = unsafe { Held::free(pointer.cast(), |_| true) };
 }
 
 /// The way into a simulation: checks the pointer, keeps others out, catches panics, keeps the text of what went wrong.
@@ -106,29 +88,11 @@ pub unsafe fn enter(
     work: impl FnOnce(&mut Inner) -> Result<()>,
 ) -> JostleStatus {
     // SAFETY: by the caller's promise.
-    let Some(handle) = (unsafe { alive(pointer) }) else {
-        return JostleStatus::NoSimulation;
-    };
-    if handle.busy.swap(true, Ordering::Acquire) {
-        return JostleStatus::Busy;
+    match unsafe { Held::enter(pointer.cast(), |inner| inner.run(access, work)) } {
+        Ok(status) => status,
+        Err(Barred::NoHandle) => JostleStatus::NoSimulation,
+        Err(Barred::Busy) => JostleStatus::Busy,
     }
-    // SAFETY: `busy` was taken, so this is the only reference into the handle until it is given back below.
-    let inner = unsafe { &mut *handle.inner.get() };
-    let status = inner.run(access, work);
-    handle.busy.store(false, Ordering::Release);
-    status
-}
-
-/// # Safety
-/// `pointer` is null or a simulation that was not freed.
-unsafe fn alive<'a>(pointer: *const JostleSimulation) -> Option<&'a JostleSimulation> {
-    if pointer.is_null() || !pointer.is_aligned() {
-        return None;
-    }
-    // SAFETY: not null, aligned (checked) and alive by the caller's promise. A shared reference is enough: what changes
-    // is in atomics and in the cell.
-    let handle = unsafe { &*pointer };
-    (handle.magic.load(Ordering::Relaxed) == ALIVE).then_some(handle)
 }
 
 impl Inner {
@@ -158,16 +122,6 @@ impl Inner {
             }
         }
     }
-}
-
-/// The text of a panic, for the caller to report.
-pub fn describe(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<String>().map(String::as_str);
-    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-    format!(
-        "internal defect, please report it: {}",
-        text.unwrap_or("panic without a message")
-    )
 }
 
 /// Copies the text of the last refusal in this simulation, empty if there was none: what was wrong, its value, what is

@@ -2,7 +2,9 @@
 
 use std::ffi::{CStr, CString, c_char};
 use std::ptr::null_mut;
+use std::sync::LazyLock;
 
+use jostle::scene::catalogue::cards;
 use jostle_c::*;
 
 use super::hand::*;
@@ -10,36 +12,70 @@ use super::hand::*;
 /// Longest step: what takes little time with every engine. Longer ones are for `tests/abuse.rs`.
 const LONGEST_STEP: f64 = 0.05;
 
-const TEXTS: [&str; 28] = [
-    "packing",
-    "wedge",
-    "ratchet",
-    "molecular-dynamics",
-    "event-driven",
-    "map",
-    "input",
-    "sine",
-    "",
-    "sandpile",
-    "base.displacement",
-    "base.velocity",
-    "disk.angle[1]",
-    "seed",
-    "gravity",
-    "collisions",
-    "drive.amplitude",
-    "1e-3",
-    "7",
-    "nan",
-    "-1",
-    "1e300",
-    "contact.friction",
-    "time_step",
-    "scene = 'wedge'\nengine = 'map'",
-    "scene = 'packing'\ndisks = 3\n[parameters]\nbase.model = 'random_phase'",
-    "scene = [",
-    "box.width",
-];
+/// Work of one call, so that the boundary is tried and not the patience.
+const MOST_WORK: u64 = 2000;
+
+/// Names of scenes and variables, numbers, and texts that are neither.
+static TEXTS: LazyLock<Vec<CString>> = LazyLock::new(|| {
+    const TEXTS: [&str; 46] = [
+        "1e-3",
+        "7",
+        "nan",
+        "-1",
+        "1e300",
+        "0",
+        "1e-9",
+        "0.3",
+        "random_phase",
+        "walls",
+        "packing",
+        "wedge",
+        "ratchet",
+        "three_disk",
+        "molecular-dynamics",
+        "molecular-dynamics-located",
+        "event-driven",
+        "map",
+        "input",
+        "sine",
+        "harmonic-torque",
+        "",
+        "sandpile",
+        "base.displacement",
+        "base.velocity",
+        "base.model",
+        "torque",
+        "torque.rate",
+        "torque.amplitude",
+        "support.shape",
+        "support.amplitude",
+        "disk.angle[1]",
+        "disk.drop_height",
+        "seed",
+        "gravity",
+        "tolerance",
+        "collisions",
+        "drive.amplitude",
+        "drive.frequency",
+        "contact.friction",
+        "contact.normal_stiffness",
+        "time_step",
+        "scene = 'wedge'\nengine = 'map'",
+        "scene = 'packing'\ndisks = 3\n[parameters]\nbase.model = 'random_phase'",
+        "scene = [",
+        "box.width",
+    ];
+    let texts = TEXTS.iter().map(|text| CString::new(*text));
+    texts.collect::<Result<_, _>>().expect("no zero byte")
+});
+
+/// Scene, engine and drive of everything in the catalogue, and whether it may have more than one disk.
+static SCENES: LazyLock<Vec<([CString; 3], bool)>> = LazyLock::new(|| {
+    let name = |text: &str| CString::new(text).expect("no zero byte");
+    let scenes = cards().into_iter();
+    let scenes = scenes.map(|card| ([card.scene, card.engine, card.drive].map(name), *card.disks.end() > 1));
+    scenes.collect()
+});
 
 struct Caller<'a> {
     hand: Hand<'a>,
@@ -103,7 +139,14 @@ const CALLS: &[Call] = &[
     },
     carry,
     carry,
-    |caller| check(unsafe { jostle_limit_work(caller.simulation(), 1000 << caller.hand.below(12)) }),
+    |caller| {
+        check(unsafe {
+            jostle_limit_work(
+                caller.simulation(),
+                [0, 1, 100, MOST_WORK, 10_000][caller.hand.below(5)],
+            )
+        })
+    },
     |caller| {
         let (simulation, bytes) = (caller.simulation(), draw::<Bytes>(caller));
         check(unsafe { jostle_save(simulation, bytes, draw::<Length>(caller), draw::<Sizes>(caller)) })
@@ -145,12 +188,8 @@ const CALLS: &[Call] = &[
 
 pub fn run(bytes: &[u8]) {
     report_defects();
-    let texts = TEXTS
-        .iter()
-        .map(|text| CString::new(*text).expect("no zero byte"))
-        .collect();
     let mut caller = Caller {
-        hand: Hand::new(bytes, 60, texts),
+        hand: Hand::new(bytes, 60, &TEXTS),
         simulations: [null_mut(); 3],
         saved: Vec::new(),
         error: [0; 256],
@@ -173,21 +212,8 @@ fn check(status: JostleStatus) {
 
 /// Makes a simulation where there is none, of a scene that exists for the most part.
 fn create(caller: &mut Caller) {
-    const SCENES: [[&CStr; 3]; 11] = [
-        [c"packing", c"molecular-dynamics", c"input"],
-        [c"packing", c"molecular-dynamics", c"sine"],
-        [c"packing", c"event-driven", c"input"],
-        [c"packing", c"event-driven", c"sine"],
-        [c"wedge", c"map", c"sine"],
-        [c"wedge", c"event-driven", c"input"],
-        [c"wedge", c"event-driven", c"sine"],
-        [c"wedge", c"molecular-dynamics", c"input"],
-        [c"wedge", c"molecular-dynamics", c"sine"],
-        [c"ratchet", c"event-driven", c"input"],
-        [c"ratchet", c"event-driven", c"sine"],
-    ];
     count();
-    let (index, scene) = (caller.hand.below(3), caller.hand.below(SCENES.len() + 2));
+    let (index, scene) = (caller.hand.below(3), caller.hand.below(SCENES.len() + 1));
     if !caller.simulations[index].is_null() {
         return;
     }
@@ -201,50 +227,38 @@ fn create(caller: &mut Caller) {
         0
     };
     let (size, error) = (caller.error_size(), caller.error.as_mut_ptr());
-    // SAFETY: texts are null or end with a zero byte; lengths are those of the arrays.
-    caller.simulations[index] = unsafe {
-        match SCENES.get(scene) {
-            Some(names) => {
-                let [scene, engine, drive] = names.map(CStr::as_ptr);
-                let one = names[0] == c"wedge" || names[0] == c"three_disk";
-                let disks = if one { 0 } else { 1 + caller.hand.below(4) as u32 };
-                jostle_new(
-                    scene,
-                    engine,
-                    drive,
-                    disks,
-                    settings.as_ptr(),
-                    settings_count,
-                    error,
-                    size,
-                )
-            }
-            None if scene == SCENES.len() => jostle_new_from_toml(caller.hand.text(), error, size),
-            None => {
-                let [scene, engine, drive] = [(); 3].map(|()| caller.hand.text());
-                let disks = caller.hand.below(4) as u32;
-                jostle_new(
-                    scene,
-                    engine,
-                    drive,
-                    disks,
-                    settings.as_ptr(),
-                    settings_count,
-                    error,
-                    size,
-                )
-            }
-        }
+    let disks = 1 + caller.hand.below(4) as u32;
+    let ([scene, engine, drive], disks) = match SCENES.get(scene) {
+        Some((names, many)) => (
+            names.each_ref().map(|name| name.as_ptr()),
+            if *many { disks } else { 1 },
+        ),
+        None => ([(); 3].map(|()| caller.hand.text()), disks),
     };
+    // SAFETY: texts are null or end with a zero byte; lengths are those of the arrays; what is made is alive.
+    unsafe {
+        let made = if caller.hand.rarely(16) {
+            jostle_new_from_toml(caller.hand.text(), error, size)
+        } else {
+            let (settings, count) = (settings.as_ptr(), settings_count);
+            jostle_new(scene, engine, drive, disks, settings, count, error, size)
+        };
+        caller.simulations[index] = made;
+        if !made.is_null() {
+            check(jostle_limit_work(made, MOST_WORK));
+        }
+    }
 }
 
 /// Steps on from where a simulation is.
 fn step(caller: &mut Caller) {
-    let (simulation, step, mut now) = (caller.simulation(), caller.hand.real(), 0.0);
+    let (simulation, step, mut now) = (caller.simulation(), caller.hand.duration(LONGEST_STEP), 0.0);
     // SAFETY: null, alive or memory that is none.
     unsafe {
         check(jostle_time(simulation, &mut now));
-        check(jostle_advance_to(simulation, now + step.min(LONGEST_STEP)));
+        let status = jostle_advance_to(simulation, now + step);
+        check(status);
+        count_step(status == JostleStatus::Ok && step > 0.0);
     }
 }
 

@@ -24,6 +24,7 @@ pub struct Slot {
 /// What a run has at hand besides numbers.
 pub struct Importer<'a> {
     pub hand: Hand<'a>,
+    tokens: &'a [CString],
     /// Each at an address of its own: components keep pointers to them.
     #[allow(clippy::vec_box)]
     pub slots: Vec<Box<Slot>>,
@@ -33,26 +34,40 @@ pub struct Importer<'a> {
     pub longest_step: f64,
 }
 
+/// What may be told a library: the tokens of its scene, good and bad texts, and how many variables there are at most.
+pub struct Subject {
+    tokens: Vec<CString>,
+    texts: Vec<CString>,
+    variables: u32,
+}
+
+impl Subject {
+    /// Scene S with each of these numbers of disks, with and without array variables.
+    pub fn new<S: Scene>(choices: &[u32]) -> Self {
+        let text = |bytes: &[u8]| CString::new(bytes).expect("no zero byte");
+        let (mut tokens, mut variables) = (Vec::new(), 0);
+        for disks in choices {
+            let choice = Choice { disks: *disks };
+            let rows = S::variables(choice);
+            variables = variables.max(rows.len() as u32);
+            for arrays in [false, true] {
+                tokens.push(text(token::compose(&S::card(), choice, &rows, arrays).as_bytes()));
+            }
+        }
+        let words = ["name", "", "logStatusError", "logEvents", "jostle:"].map(|word| text(word.as_bytes()));
+        let mut texts = vec![tokens[0].clone(), text(&[0xff, 0xfe])];
+        texts.extend(words);
+        Self {
+            tokens,
+            texts,
+            variables,
+        }
+    }
+}
+
 impl<'a> Importer<'a> {
-    pub fn new<S: Scene>(bytes: &'a [u8], disks: u32, longest_step: f64) -> Self {
+    pub fn new(bytes: &'a [u8], subject: &'a Subject, longest_step: f64) -> Self {
         report_defects();
-        let (card, choice) = (S::card(), Choice { disks });
-        let rows = S::variables(choice);
-        let token = token::write(&card, choice, &rows);
-        let texts = [
-            token.as_str(),
-            token.as_str(),
-            "name",
-            "",
-            "logStatusError",
-            "logEvents",
-            "jostle:",
-        ];
-        let mut texts: Vec<_> = texts
-            .iter()
-            .map(|text| CString::new(*text).expect("no zero byte"))
-            .collect();
-        texts.push(CString::new([0xff_u8, 0xfe]).expect("no zero byte"));
         let slot = || {
             Box::new(Slot {
                 pointer: Cell::new(null_mut()),
@@ -61,7 +76,8 @@ impl<'a> Importer<'a> {
             })
         };
         Self {
-            hand: Hand::new(bytes, rows.len() as u32, texts),
+            hand: Hand::new(bytes, subject.variables, &subject.texts),
+            tokens: &subject.tokens,
             slots: (0..3).map(|_| slot()).collect(),
             states: [null_mut(); 6],
             saved: Vec::new(),
@@ -69,9 +85,9 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// The token.
-    pub fn first_text(&self) -> *const c_char {
-        self.hand.first_text()
+    /// A token that is right.
+    pub fn token(&mut self) -> *const c_char {
+        self.tokens[self.hand.below(self.tokens.len())].as_ptr()
     }
 
     /// One of the instances, or null, or memory that is no instance.
@@ -88,6 +104,15 @@ impl<'a> Importer<'a> {
         }
     }
 
+    /// A slot with an instance, if there is one.
+    pub fn live_slot(&mut self) -> usize {
+        let drawn = self.hand.below(3);
+        let mut slots = (0..3).map(|offset| (drawn + offset) % 3);
+        slots
+            .find(|slot| !self.slots[*slot].pointer.get().is_null())
+            .unwrap_or(drawn)
+    }
+
     /// A state, stale or foreign ones among them, or a number that is none.
     pub fn state(&mut self) -> Opaque {
         match self.hand.below(8) {
@@ -99,12 +124,7 @@ impl<'a> Importer<'a> {
 
     /// A step, mostly short.
     pub fn step(&mut self) -> f64 {
-        let step = self.hand.real();
-        if step.is_finite() && step > self.longest_step {
-            self.longest_step
-        } else {
-            step
-        }
+        self.hand.duration(self.longest_step)
     }
 
     pub fn state_slot(&mut self) -> *mut Opaque {

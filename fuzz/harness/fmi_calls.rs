@@ -2,14 +2,15 @@
 //! one line. Whoever includes this file says in `super::library` which library is called.
 
 use std::ptr::{null, null_mut};
+use std::sync::LazyLock;
 
 use jostle::fmi::abi::common::{Opaque, Status};
 
-use super::fmi::{CALL_BACK, Importer, Slot, check, log3};
+use super::fmi::{CALL_BACK, Importer, Slot, Subject, check, log3};
 use super::hand::*;
 use super::library::fmi2::*;
 use super::library::fmi3::*;
-use super::library::{DISKS, LONGEST_STEP, Subject};
+use super::library::{LONGEST_STEP, Scene, choices};
 
 /// An argument of a call.
 trait Role {
@@ -183,8 +184,11 @@ table! {
 /// Calls that must come in an order to get anywhere, more often than each single one.
 const LIVES: &[Call] = &[
     instantiate,
-    instantiate,
     initialize,
+    begin,
+    begin,
+    walk,
+    walk,
     walk,
     walk,
     walk,
@@ -192,12 +196,14 @@ const LIVES: &[Call] = &[
     refuse,
     free,
     set_up,
+    set_up,
 ];
 
 pub fn run(bytes: &[u8]) {
+    static SUBJECT: LazyLock<Subject> = LazyLock::new(|| Subject::new::<Scene>(&choices()));
     CALL_BACK.set(Some(call_back));
-    let mut importer = Importer::new::<Subject>(bytes, DISKS, LONGEST_STEP);
-    instantiate(&mut importer);
+    let mut importer = Importer::new(bytes, &SUBJECT, LONGEST_STEP);
+    begin(&mut importer);
     while !importer.hand.is_empty() {
         let index = usize::from(importer.hand.byte());
         match LIVES.get(index % 32) {
@@ -258,14 +264,14 @@ fn instantiate(importer: &mut Importer) {
     let token = if importer.hand.rarely(16) {
         importer.hand.text()
     } else {
-        importer.first_text()
+        importer.token()
     };
     let name = if importer.hand.rarely(16) {
         importer.hand.text()
     } else {
         c"name".as_ptr()
     };
-    let (logs, events) = (importer.hand.byte(), importer.hand.rarely(4) as u8);
+    let (logs, events) = (importer.hand.byte(), importer.hand.byte() & 1);
     let (early, wanted) = (importer.hand.byte() & 1, usize::from(importer.hand.rarely(16)));
     let slot = &importer.slots[index];
     slot.three.set(kind >= 6);
@@ -297,23 +303,36 @@ fn instantiate(importer: &mut Importer) {
     slot.pointer.set(pointer);
 }
 
-/// Sets parameters of one instance, valid ones for the most part.
+/// An instance from its making to its first step, with up to three parameters set, as a careful importer does it.
+fn begin(importer: &mut Importer) {
+    instantiate(importer);
+    for _ in 0..importer.hand.below(4) {
+        set_up(importer);
+    }
+    initialize(importer);
+}
+
+/// Changes a parameter or an input of one instance by a factor, so that it is still valid for the most part.
 fn set_up(importer: &mut Importer) {
-    let slot = importer.hand.below(3);
-    let (reference, value) = (importer.hand.reference(), f64::from(importer.hand.byte()) / 32.0);
+    const FACTORS: [f64; 8] = [1.1, 0.9, 1.01, 0.5, 2.0, 0.0, -1.0, 1e3];
+    let slot = importer.live_slot();
+    let (reference, factor) = (importer.hand.reference(), FACTORS[importer.hand.below(FACTORS.len())]);
     let (pointer, three) = (importer.slots[slot].pointer.get(), importer.slots[slot].three.get());
+    let mut value = 0.0;
     // SAFETY: null or alive; one reference, one value.
-    check(unsafe {
+    unsafe {
         if three {
-            fmi3SetFloat64(pointer, &reference, 1, &value, 1)
+            check(fmi3GetFloat64(pointer, &reference, 1, &mut value, 1));
+            check(fmi3SetFloat64(pointer, &reference, 1, &(factor * value), 1));
         } else {
-            fmi2SetReal(pointer, &reference, 1, &value)
+            check(fmi2GetReal(pointer, &reference, 1, &mut value));
+            check(fmi2SetReal(pointer, &reference, 1, &(factor * value)));
         }
-    });
+    }
 }
 
 fn initialize(importer: &mut Importer) {
-    let slot = importer.hand.below(3);
+    let slot = importer.live_slot();
     let start = if importer.hand.rarely(4) {
         importer.hand.real()
     } else {
@@ -334,9 +353,9 @@ fn initialize(importer: &mut Importer) {
     }
 }
 
-/// Steps on from where an instance is. (FMI 2.0 tells the time by the independent variable as well.)
+/// Steps on from where an instance is, through event mode if there was an event. (FMI 2.0 tells the time by the independent variable as well.)
 fn walk(importer: &mut Importer) {
-    let (slot, step) = (importer.hand.below(3), importer.step());
+    let (slot, step) = (importer.live_slot(), importer.step());
     let (pointer, three) = (importer.slots[slot].pointer.get(), importer.slots[slot].three.get());
     let (mut now, mut reached, mut flags) = (0.0, 0.0, [0_u8; 3]);
     let [event, terminate, early] = &mut flags;
@@ -344,13 +363,28 @@ fn walk(importer: &mut Importer) {
     unsafe {
         if three {
             check(fmi3GetFloat64(pointer, &0, 1, &mut now, 1));
-            check(fmi3DoStep(pointer, now, step, 0, event, terminate, early, &mut reached));
+            let status = fmi3DoStep(pointer, now, step, 0, event, terminate, early, &mut reached);
+            check(status);
+            count_step(status == Status::Ok);
             if flags[0] != 0 {
+                let [mut update, mut end, mut nominals, mut states, mut next] = [0_u8; 5];
                 check(fmi3EnterEventMode(pointer));
+                check(fmi3UpdateDiscreteStates(
+                    pointer,
+                    &mut update,
+                    &mut end,
+                    &mut nominals,
+                    &mut states,
+                    &mut next,
+                    &mut reached,
+                ));
+                check(fmi3EnterStepMode(pointer));
             }
         } else {
             check(fmi2GetReal(pointer, &0, 1, &mut now));
-            check(fmi2DoStep(pointer, now, step, 0));
+            let status = fmi2DoStep(pointer, now, step, 0);
+            check(status);
+            count_step(status == Status::Ok);
         }
     }
 }

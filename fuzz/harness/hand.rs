@@ -10,13 +10,19 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub const LONGEST: usize = 16;
 
 static CALLS: AtomicU64 = AtomicU64::new(0);
+static STEPS: AtomicU64 = AtomicU64::new(0);
 
 /// Counts a call into the library under test and says how many there were, now and then.
 pub fn count() {
     let calls = CALLS.fetch_add(1, Ordering::Relaxed) + 1;
-    if calls.is_multiple_of(100_000) {
-        eprintln!("calls: {calls}");
+    if calls.is_multiple_of(10_000) {
+        eprintln!("calls: {calls} steps: {}", STEPS.load(Ordering::Relaxed));
     }
+}
+
+/// Counts a step forward in time that was done, among the calls.
+pub fn count_step(done: bool) {
+    STEPS.fetch_add(u64::from(done), Ordering::Relaxed);
 }
 
 /// Panics that a scene was told to do are none to report; any other ends the process, though the boundary catches it.
@@ -34,6 +40,7 @@ pub fn report_defects() {
 }
 
 /// Buffers that pointers lead to. Behind a raw pointer, since several are lent to one call.
+#[allow(dead_code)] // each library has functions of some types only
 pub struct Buffers {
     pub references: [u32; LONGEST],
     pub reals: [f64; LONGEST],
@@ -47,7 +54,7 @@ pub struct Buffers {
 pub struct Hand<'a> {
     rest: &'a [u8],
     buffers: *mut Buffers,
-    texts: Vec<CString>,
+    texts: &'a [CString],
     /// Variables of the scene.
     variables: u32,
 }
@@ -60,7 +67,7 @@ impl Drop for Hand<'_> {
 }
 
 impl<'a> Hand<'a> {
-    pub fn new(bytes: &'a [u8], variables: u32, texts: Vec<CString>) -> Self {
+    pub fn new(bytes: &'a [u8], variables: u32, texts: &'a [CString]) -> Self {
         let buffers = Box::new(Buffers {
             references: [0; LONGEST],
             reals: [0.0; LONGEST],
@@ -135,6 +142,18 @@ impl<'a> Hand<'a> {
         }
     }
 
+    /// A duration: three in four are of some use, and none is longer than `longest`.
+    pub fn duration(&mut self, longest: f64) -> f64 {
+        const USEFUL: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-9, 0.01];
+        let index = self.below(8);
+        let duration = USEFUL.get(index).copied().unwrap_or_else(|| self.real());
+        if duration.is_finite() {
+            duration.min(longest)
+        } else {
+            duration
+        }
+    }
+
     pub fn reference(&mut self) -> u32 {
         if self.rarely(16) {
             return self.word() as u32;
@@ -148,7 +167,8 @@ impl<'a> Hand<'a> {
             0 => 0,
             1 => usize::MAX,
             2 => LONGEST,
-            _ => 1 + self.below(2),
+            3 => self.below(LONGEST),
+            _ => 1 + self.below(3),
         }
     }
 
@@ -168,11 +188,6 @@ impl<'a> Hand<'a> {
     pub fn text(&mut self) -> *const c_char {
         let index = self.below(self.texts.len() + 1);
         self.texts.get(index).map_or(std::ptr::null(), |text| text.as_ptr())
-    }
-
-    /// The first text.
-    pub fn first_text(&self) -> *const c_char {
-        self.texts[0].as_ptr()
     }
 
     /// Damages bytes that are to be read back, and mends their checksum now and then, so that what is behind it is reached.
@@ -207,6 +222,7 @@ pub trait Draw {
 /// A role by its draw.
 macro_rules! roles {
     ($($role:ident -> $kind:ty = |$hand:ident| $draw:expr;)*) => {$(
+        #[allow(dead_code)] // each library has functions of some roles only
         pub struct $role;
         impl Draw for $role {
             type Argument = $kind;

@@ -1,6 +1,8 @@
-//! Both versions of FMI with a scene that is shipped: hard disks on a base that follows the inputs.
+//! Both versions of FMI with every scene that is shipped, small ones, several kinds of them in one run.
 #![no_main]
 
+#[path = "../harness/any_scene.rs"]
+mod any_scene;
 #[path = "../harness/fmi.rs"]
 mod fmi;
 #[path = "../harness/fmi_calls.rs"]
@@ -9,10 +11,8 @@ mod fmi_calls;
 mod hand;
 
 mod library {
-    pub use jostle::scene::packing::event_driven::HardPackingOnInput as Subject;
-    pub const DISKS: u32 = 3;
+    pub use super::any_scene::{AnyScene as Scene, choices, fmi2, fmi3};
     pub const LONGEST_STEP: f64 = 0.05;
-    jostle::export_fmu!(jostle::scene::packing::event_driven::HardPackingOnInput);
 }
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fmi_calls::run(bytes));

@@ -377,8 +377,9 @@ where
         let averages = &state.averages;
         let averages_hold = averages.transport.is_sound(self.masses.len(), state.report.time);
         let report_holds = state.report.is_sane() && are_sane([averages.mark]);
+        let counts_hold = state.engine.boundary.ceiling_hits() <= state.engine.counts.wall_impacts;
         let remedy = "Restore states of the same scene, disk count and parameters only.";
-        if !(averages_hold && report_holds && self.engine.fits(&state.engine)) {
+        if !(averages_hold && report_holds && counts_hold && self.engine.fits(&state.engine)) {
             return Err(Error::state("it is not a state of this run", remedy));
         }
         let former = self.saved();

@@ -174,7 +174,8 @@ impl CellGrid {
         }
     }
 
-    /// Cells as wide as the largest reach, but no more of them than a few per disk, however far one disk has flown.
+    /// Cells as wide as the largest reach, but no more of them than a few per disk, however far one disk has flown. (Also to
+    /// infinity: who takes the step looks at that when it is done.)
     fn sort_into_cells(&mut self, cloud: Cloud<'_>) {
         let count = cloud.places.len();
         let largest = cloud.radii.iter().copied().fold(0.0, f64::max);
@@ -185,8 +186,10 @@ impl CellGrid {
             high = [high[0].max(x), high[1].max(y)];
         }
         let most = (2 * count + 16) as f64;
-        self.columns = ((high[0] - low[0]) / side).clamp(1.0, most) as usize;
-        self.rows = ((high[1] - low[1]) / side).clamp(1.0, (most / self.columns as f64).max(1.0)) as usize;
+        // `max` before `min`, since it takes the number where the other is none; `clamp` would not.
+        let cells = |extent: f64, most: f64| (extent / side).max(1.0).min(most) as usize;
+        self.columns = cells(high[0] - low[0], most);
+        self.rows = cells(high[1] - low[1], (most / self.columns as f64).max(1.0));
         let scale = |cells: usize, extent: f64| if extent > 0.0 { cells as f64 / extent } else { 0.0 };
         let per_metre = [
             scale(self.columns, high[0] - low[0]),
@@ -248,6 +251,33 @@ mod tests {
 
     fn uniform(random: &mut Pcg64) -> f64 {
         (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A step may throw disks to infinity before it is refused.
+    #[test]
+    fn disks_beyond_all_numbers_have_no_neighbours() {
+        let (far, none) = (f64::INFINITY, f64::NAN);
+        for place in [
+            [far, 0.0, 0.0],
+            [-far, far, 0.0],
+            [none, 1.0, 0.0],
+            [1e300, -1e300, 0.0],
+        ] {
+            for places in [vec![place], vec![place, [0.0; 3], [0.01, 0.0, 0.0]], vec![place; 2]] {
+                let radii = vec![0.01; places.len()];
+                let (mut pairs, margin) = (Vec::new(), 0.003);
+                let cloud = Cloud {
+                    places: &places,
+                    radii: &radii,
+                    margin,
+                };
+                CellGrid::default().find(cloud, &mut pairs);
+                assert!(
+                    pairs.iter().all(|pair| pair[0] > 0 || place[0] == 1e300),
+                    "{places:?}: {pairs:?}"
+                );
+            }
+        }
     }
 
     /// The grid finds what comparing all pairs finds, in clouds of every density, with one disk far away.

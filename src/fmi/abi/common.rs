@@ -1,13 +1,11 @@
 //! What both versions share: the handle behind `fmi2Component` and `fmi3Instance`, the way in and out of every call.
 
-use std::any::Any;
-use std::cell::UnsafeCell;
 use std::collections::HashMap;
 use std::ffi::{c_char, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::null_mut;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
+use super::handle::{self, describe};
 use super::logger::{Category, Logger};
 use super::memory;
 use super::states::Saved;
@@ -37,16 +35,8 @@ pub enum Status {
     Pending = 5,
 }
 
-/// Tells a handle of ours from a pointer to something else, and from one that was freed (as far as that can be).
-const ALIVE: u64 = 0x6a6f_7374_6c65_464d;
-
 /// What an instance pointer points to.
-pub struct Handle<S: Scene> {
-    magic: AtomicU64,
-    /// A call is under way. A callback that calls back, or a second thread, is refused instead of aliasing `inner`.
-    busy: AtomicBool,
-    inner: UnsafeCell<Inner<S>>,
-}
+type Handle<S> = handle::Handle<Inner<S>, 0x6a6f_7374_6c65_464d>;
 
 /// An instance with what it needs to talk to its importer.
 pub struct Inner<S: Scene> {
@@ -85,12 +75,7 @@ pub fn instantiate<S: Scene>(
                 version,
                 states: HashMap::new(),
             };
-            let handle = Handle {
-                magic: AtomicU64::new(ALIVE),
-                busy: AtomicBool::new(false),
-                inner: UnsafeCell::new(inner),
-            };
-            Box::into_raw(Box::new(handle)).cast()
+            Handle::<S>::hand_out(inner).cast()
         }
         Ok(Err(error)) => {
             logger.refuse(&format!("{function}: {error}"));
@@ -103,28 +88,14 @@ pub fn instantiate<S: Scene>(
     }
 }
 
-/// Frees an instance with all its states. Null is ignored, as both standards ask.
+/// Frees an instance with all its states. Null is ignored, as both standards ask, and so is an instance of the other version
+/// or one that is at work, such as from inside a callback of this very instance.
 ///
 /// # Safety
 /// `pointer` is null or an instance of this library that was not freed before.
 pub unsafe fn free<S: Scene>(pointer: Opaque, version: Version) {
     // SAFETY: by the caller's promise.
-    let Some(handle) = (unsafe { handle::<S>(pointer) }) else {
-        return;
-    };
-    if handle.busy.swap(true, Ordering::Acquire) {
-        return; // from inside a callback of this very instance: freeing it now would pull it from under the call
-    }
-    // SAFETY: `busy` was taken, so nobody else looks inside.
-    if unsafe { &*handle.inner.get() }.version != version {
-        handle.busy.store(false, Ordering::Release);
-        return;
-    }
-    handle.magic.store(0, Ordering::Relaxed);
-    // SAFETY: made by `Box::into_raw` in `instantiate` and, by the caller's promise, not freed before.
-    let boxed = unsafe { Box::from_raw(pointer.cast::<Handle<S>>()) };
-    // A scene that panics when it is dropped has nobody left to tell.
-    let _ = catch_unwind(AssertUnwindSafe(|| drop(boxed)));
+    let _ = unsafe { Handle::<S>::free(pointer.cast(), |inner| inner.version == version) };
 }
 
 /// The way into an instance: checks the pointer, keeps others out, catches panics, logs what went wrong.
@@ -137,35 +108,12 @@ pub unsafe fn enter<S: Scene>(
     function: &str,
     work: impl FnOnce(&mut Inner<S>) -> Result<()>,
 ) -> Status {
+    let run = |inner: &mut Inner<S>| match inner.version == version {
+        true => inner.run(function, work),
+        false => Status::Error,
+    };
     // SAFETY: by the caller's promise.
-    let Some(handle) = (unsafe { handle::<S>(pointer) }) else {
-        return Status::Error;
-    };
-    if handle.busy.swap(true, Ordering::Acquire) {
-        return Status::Error;
-    }
-    // SAFETY: `busy` was taken, so this is the only reference into the handle until it is given back below.
-    let inner = unsafe { &mut *handle.inner.get() };
-    let status = if inner.version == version {
-        inner.run(function, work)
-    } else {
-        Status::Error
-    };
-    handle.busy.store(false, Ordering::Release);
-    status
-}
-
-/// # Safety
-/// `pointer` is null or an instance of this library that was not freed.
-unsafe fn handle<'a, S: Scene>(pointer: Opaque) -> Option<&'a Handle<S>> {
-    let pointer = pointer.cast::<Handle<S>>();
-    if pointer.is_null() || !pointer.is_aligned() {
-        return None;
-    }
-    // SAFETY: not null, aligned (checked) and alive by the caller's promise. A shared reference is enough: what changes
-    // is in atomics and in the cell.
-    let handle = unsafe { &*pointer };
-    (handle.magic.load(Ordering::Relaxed) == ALIVE).then_some(handle)
+    unsafe { Handle::<S>::enter(pointer.cast_const().cast(), run) }.unwrap_or(Status::Error)
 }
 
 impl<S: Scene> Inner<S> {
@@ -326,13 +274,4 @@ pub unsafe fn no_such_type<S: Scene>(pointer: Opaque, version: Version, function
             )),
         })
     }
-}
-
-fn describe(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<String>().map(String::as_str);
-    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-    format!(
-        "internal defect, please report it: {}",
-        text.unwrap_or("panic without a message")
-    )
 }

@@ -9,6 +9,7 @@
 pub mod common;
 pub mod fmi2;
 pub mod fmi3;
+pub mod handle;
 #[cfg(feature = "command-line")]
 pub mod importer;
 pub mod logger;

@@ -1,0 +1,46 @@
+//! Random sequences of calls of all functions of both versions of FMI, on small instances of every scene: a short run of
+//! what `fuzz/run` does for hours, and the inputs that it has found worth keeping.
+#![allow(unsafe_code, dead_code, clippy::unwrap_used, clippy::undocumented_unsafe_blocks)]
+
+#[path = "../fuzz/harness/any_scene.rs"]
+mod any_scene;
+#[path = "../fuzz/harness/fmi.rs"]
+mod fmi;
+#[path = "../fuzz/harness/fmi_calls.rs"]
+mod fmi_calls;
+#[path = "../fuzz/harness/hand.rs"]
+mod hand;
+
+mod library {
+    pub use super::any_scene::{AnyScene as Scene, choices, fmi2, fmi3};
+    pub const LONGEST_STEP: f64 = 0.05;
+}
+
+use proptest::prelude::*;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn any_sequence_of_calls_is_answered(bytes in prop::collection::vec(any::<u8>(), 0..600)) {
+        fmi_calls::run(&bytes);
+    }
+}
+
+/// A scene that is new to the catalogue is tried too.
+#[test]
+fn no_scene_is_left_out() {
+    let scenes = library::choices().iter().filter(|disks| **disks % 10 == 1).count();
+    assert_eq!(scenes, jostle::scene::catalogue::cards().len());
+}
+
+#[test]
+fn the_corpus_is_answered() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/fuzz/corpus/fmi_scene");
+    let mut inputs = 0;
+    for file in std::fs::read_dir(folder).expect("the corpus") {
+        fmi_calls::run(&std::fs::read(file.expect("a file").path()).expect("readable"));
+        inputs += 1;
+    }
+    assert!(inputs > 20, "{inputs} inputs");
+}

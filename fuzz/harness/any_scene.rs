@@ -106,6 +106,12 @@ macro_rules! scenes {
                 }
             }
 
+            fn time_of(state: &AnyState) -> f64 {
+                match state {
+                    $(AnyState::$name(state) => $name::time_of(state),)*
+                }
+            }
+
             fn restore(&mut self, state: &AnyState) -> Result<()> {
                 match (self, state) {
                     $((Self::$name(scene), AnyState::$name(state)) => scene.restore(state),)*

@@ -88,6 +88,10 @@ impl Scene for Clock {
         self.time
     }
 
+    fn time_of(state: &f64) -> f64 {
+        *state
+    }
+
     fn restore(&mut self, state: &f64) -> Result<()> {
         self.time = *state;
         Ok(())

@@ -144,6 +144,9 @@ pub trait Scene: Sized + Send + 'static {
     /// A copy of the present state.
     fn state(&self) -> Self::State;
 
+    /// Time that `state` has reached \[s\]: the end of the last call, or the start.
+    fn time_of(state: &Self::State) -> f64;
+
     /// Goes back (or on) to a state of this same scene with these same parameters.
     ///
     /// # Errors

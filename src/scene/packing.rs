@@ -321,6 +321,10 @@ impl<E: SoftEngine> Scene for SoftPacking<E> {
         }
     }
 
+    fn time_of(state: &Self::State) -> f64 {
+        state.report.time
+    }
+
     fn restore(&mut self, state: &Self::State) -> Result<()> {
         let Report {
             time,

@@ -373,6 +373,10 @@ where
         self.saved()
     }
 
+    fn time_of(state: &Self::State) -> f64 {
+        state.report.time
+    }
+
     fn restore(&mut self, state: &Self::State) -> Result<()> {
         let averages = &state.averages;
         let averages_hold = averages.transport.is_sound(self.masses.len(), state.report.time);

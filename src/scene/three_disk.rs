@@ -281,6 +281,10 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
         }
     }
 
+    fn time_of(state: &Self::State) -> f64 {
+        state.report.time
+    }
+
     fn restore(&mut self, state: &Self::State) -> Result<()> {
         let refused = || {
             let remedy = "Restore states of the same scene and parameters only.";

@@ -210,6 +210,10 @@ impl<E: Engine> Scene for Wedge<E> {
         }
     }
 
+    fn time_of(state: &Self::State) -> f64 {
+        state.report.time
+    }
+
     fn restore(&mut self, state: &Self::State) -> Result<()> {
         let Report {
             time,

@@ -77,12 +77,43 @@ impl<S: Scene> Instance<S> {
             Phase::Step | Phase::Terminated => snapshot.scene.is_some(),
             Phase::Failed => false,
         };
-        if times && complete {
+        // A scene elsewhere in time would find events before the communication point, or work off the difference.
+        let together = snapshot.scene.as_ref().is_none_or(|state| S::time_of(state) == now);
+        if times && complete && together {
             return Ok(());
         }
         Err(Error::state(
             "its phase or times are impossible",
             "Pass a state that saving gave.",
         ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fmi::instance::Importer;
+    use crate::fmi::token;
+    use crate::scene::Choice;
+    use crate::scene::wedge::WedgeMap;
+
+    #[test]
+    fn a_scene_elsewhere_in_time_is_refused() {
+        let choice = Choice { disks: 1 };
+        let token = token::write(&WedgeMap::card(), choice, &WedgeMap::variables(choice));
+        let mut instance = Instance::<WedgeMap>::new(&token, Importer::default()).unwrap();
+        instance.set_up(0.0, None).unwrap();
+        instance.enter_initialization().unwrap();
+        instance.exit_initialization().unwrap();
+        instance.do_step(0.0, 0.5).unwrap();
+        let saved = instance.save().unwrap();
+        assert_eq!(instance.restore(&saved), Ok(()));
+        for now in [0.0, 0.4, 0.6] {
+            let mut moved = saved.clone();
+            moved.clock.now = now;
+            let told = instance.restore(&moved).unwrap_err().to_string();
+            assert!(told.contains("times are impossible"), "{told}");
+        }
+        assert_eq!(instance.save().unwrap(), saved);
     }
 }

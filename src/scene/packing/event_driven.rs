@@ -212,6 +212,10 @@ impl<R: HardRun> Scene for HardPacking<R> {
         }
     }
 
+    fn time_of(state: &Self::State) -> f64 {
+        state.report.time
+    }
+
     fn restore(&mut self, state: &Self::State) -> Result<()> {
         let remedy = "Restore states of the same scene, disk count and parameters only.";
         if !(self.run.fits(&state.engine) && state.report.is_sane()) {

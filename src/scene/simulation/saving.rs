@@ -57,9 +57,10 @@ impl<S: Scene> Simulation<S> {
     }
 
     fn go_to(&mut self, saved: &Saved<S::State>, anew: bool) -> Result<()> {
-        if !(saved.time.is_finite() && saved.time >= START) {
+        let reached = S::time_of(&saved.state);
+        if !(saved.time.is_finite() && saved.time >= START && reached == saved.time) {
             return Err(Error::state(
-                format!("its time is {} s", saved.time),
+                format!("its time is {} s and its scene's {reached} s", saved.time),
                 "Pass a state that saving gave.",
             ));
         }
@@ -126,6 +127,9 @@ mod tests {
         let mut late = before.clone();
         late.time = f64::NAN;
         assert!(packing.restore(&late).unwrap_err().to_string().contains("NaN"));
+        late.time = 0.6;
+        let told = packing.restore(&late).unwrap_err().to_string();
+        assert!(told.contains("its time is 0.6 s and its scene's 0.5 s"), "{told}");
         let larger = Simulation::<PackingOnInput>::new(6, &[]).unwrap();
         assert!(packing.restore(&larger.save()).is_err());
         let bytes = larger.to_bytes().unwrap();

@@ -23,6 +23,7 @@ const PATTERNS: &[(&str, &str)] = &[
 /// State of all oscillators.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
+    time: f64,
     steps: u64,
     random: u64,
     displacements: Vec<f64>,
@@ -130,6 +131,7 @@ impl Scene for Probe {
             ));
         }
         let mut state = State {
+            time: start_time,
             steps: 0,
             random: values.integer("seed") as u64,
             displacements: vec![values.real("base.displacement"); choice.disks as usize],
@@ -157,20 +159,22 @@ impl Scene for Probe {
         while self.next_point() <= latest(end_time) {
             self.step(values);
         }
+        self.state.time = end_time;
         Ok(())
     }
 
     fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
         self.check(end_time)?;
-        let mut event = false;
-        let mut time = end_time;
+        let (from, mut event, mut time) = (self.state.time, false, end_time);
         while !event && self.next_point() <= latest(end_time) {
             time = self.next_point().min(end_time);
             let before = self.state.displacements[0];
             self.step(values);
-            event = (before < 0.0) != (self.state.displacements[0] < 0.0);
+            // A grid finer than the resolution of time, or a damaged count of steps, has points that are no later.
+            event = time > from && (before < 0.0) != (self.state.displacements[0] < 0.0);
         }
         let time = if event { time } else { end_time };
+        self.state.time = time;
         Ok(Reached { time, event })
     }
 
@@ -184,6 +188,10 @@ impl Scene for Probe {
 
     fn state(&self) -> State {
         self.state.clone()
+    }
+
+    fn time_of(state: &State) -> f64 {
+        state.time
     }
 
     fn restore(&mut self, state: &State) -> Result<()> {

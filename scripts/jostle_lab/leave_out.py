@@ -52,9 +52,7 @@ WORKLOADS = (
     Workload("soft packing, no skin", "stiffness_ratio = 0", f"{SOFT} --set contact.stiffness_ratio=0", 0.3, 0.34),
     Workload("soft packing, base at rest", "drive.amplitude = 0", f"{SOFT} --set drive.amplitude=0", 0.3, 0.34),
     Workload("soft packing, one disk", "--disks 1", f"{SOFT} --disks 1", 0.3, 0.6),
-    Workload(
-        "located packing", "60 disks, located events", "packing --engine molecular-dynamics-located", 0.3, 0.32
-    ),
+    Workload("located packing", "60 disks, located events", "packing --engine molecular-dynamics-located", 0.3, 0.32),
     Workload("hard packing", "60 disks on a moving bottom", HARD, 0.5, 0.7),
     Workload("hard packing, no friction", "contact.friction = 0", f"{HARD} --set contact.friction=0", 0.5, 0.7),
     Workload("hard packing, random phase", "bottom at rest", f"{HARD} --set base.model=random_phase", 0.5, 0.7),

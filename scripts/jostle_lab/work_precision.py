@@ -22,7 +22,9 @@ from jostle_lab.errors import LabError
 from jostle_lab.points import read_rows
 from jostle_lab.report import markdown_table
 
-COLOURS = ("#1f5fa8", "#d07a1f", "#2e7d4f", "#a23b72", "#6b6b6b", "#8a6d1f", "#3b9a9c", "#b03a2e")
+COLOURS = ("#1f5fa8", "#d07a1f", "#2e7d4f", "#a23b72", "#6b6b6b", "#8a6d1f", "#3b9a9c", "#b03a2e", "#111111")
+MANY = 6
+"""Curves beyond which the legend stands beside the diagram."""
 MARKERS = "osv^DPX*"
 ROUNDING = 1e-14
 """Errors below this are rounding: no order is fitted through them."""
@@ -164,7 +166,9 @@ def draw(diagram: Diagram, axes: Axes, colours: dict[str, tuple[str, str]]) -> N
     axes.tick_params(labelsize=6)
     axes.grid(lw=0.3, color="0.85")
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(fontsize=5.5, framealpha=0.6)
+        legend = axes.legend(fontsize=5.5, framealpha=0.6)
+        if len(legend.get_texts()) > MANY:
+            legend.set(loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
 def _label(method: str, points: list[Point]) -> str:

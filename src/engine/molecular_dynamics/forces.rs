@@ -54,15 +54,8 @@ impl<'a> Bodies<'a> {
 ///
 /// The tangential force on the centres is `tau (R_a + R_b) / r` while the torques have the arms R_a and R_b: so
 /// angular momentum is kept when disks overlap, and the skin is elastic in the strict sense, force = -gradient.
-pub fn between_disks(laws: &Laws, pairs: &mut [Pair], bodies: Bodies<'_>, forces: &mut [[f64; 3]], sums: &mut Sums) {
-    match laws.grips {
-        true => between::<true>(laws, pairs, bodies, forces, sums),
-        false => between::<false>(laws, pairs, bodies, forces, sums),
-    }
-}
-
 #[inline(always)]
-fn between<const SKIN: bool>(
+pub fn between_disks<const SKIN: bool>(
     laws: &Laws,
     pairs: &mut [Pair],
     bodies: Bodies<'_>,
@@ -137,22 +130,8 @@ fn two_pairs<const SKIN: bool>(
 }
 
 /// Adds the forces of the walls to `forces`, and each wall's own sum (x, y) to `from_walls`, which lists them flat.
-pub fn at_walls(
-    laws: &Laws,
-    at_walls: &mut [AtWall],
-    (walls, base): (&[Wall], Motion),
-    bodies: Bodies<'_>,
-    ours: (&mut [[f64; 3]], &mut [f64]),
-    sums: &mut Sums,
-) {
-    match laws.grips {
-        true => beside_walls::<true>(laws, at_walls, (walls, base), bodies, ours, sums),
-        false => beside_walls::<false>(laws, at_walls, (walls, base), bodies, ours, sums),
-    }
-}
-
 #[inline(always)]
-fn beside_walls<const SKIN: bool>(
+pub fn at_walls<const SKIN: bool>(
     laws: &Laws,
     at_walls: &mut [AtWall],
     (walls, base): (&[Wall], Motion),

@@ -280,8 +280,19 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         Ok(())
     }
 
-    /// Forces at the present positions, velocities and base motion, into `self.force`.
+    /// Forces at the present positions, velocities and base motion, into `self.force`. Compiled with skins and without, so
+    /// that the loops hold no branch on it.
     fn evaluate(&mut self, step: f64) -> Tally {
+        let skin = self.setup.laws.skin;
+        if skin.friction > 0.0 && skin.stiffness > 0.0 {
+            self.evaluate_with::<true>(step)
+        } else {
+            self.evaluate_with::<false>(step)
+        }
+    }
+
+    #[inline(never)]
+    fn evaluate_with<const SKIN: bool>(&mut self, step: f64) -> Tally {
         let count = self.radii.len();
         let state = &mut self.state;
         self.force.copy_from_slice(&self.weight);
@@ -291,9 +302,9 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         let laws = Laws::new(&self.setup.laws, step);
         let walls = &self.setup.walls;
         let mut sums = Sums::default();
-        between_disks(&laws, &mut state.pairs, bodies, on_disks, &mut sums);
+        between_disks::<SKIN>(&laws, &mut state.pairs, bodies, on_disks, &mut sums);
         let ours = (on_disks, &mut *from_walls);
-        at_walls(&laws, &mut state.at_walls, (walls, state.base), bodies, ours, &mut sums);
+        at_walls::<SKIN>(&laws, &mut state.at_walls, (walls, state.base), bodies, ours, &mut sums);
         let vertical = from_walls.chunks_exact(2).zip(walls);
         state.base_force = vertical.map(|(force, wall)| wall.follows_base * force[1]).sum();
         sums.tally()

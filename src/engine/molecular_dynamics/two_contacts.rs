@@ -34,8 +34,6 @@ pub struct Contact {
 
 /// The contact laws, with what follows from them worked out once an evaluation.
 pub struct Laws {
-    /// Whether the skins can hold anything at all.
-    pub grips: bool,
     normal_stiffness: Two,
     damping: Two,
     skin_stiffness: Two,
@@ -52,7 +50,6 @@ impl Laws {
         // A skin without stiffness never slips: finite, so that no force times it is no number.
         let slack = (skin.friction / skin.stiffness).min(f64::MAX);
         Self {
-            grips: skin.friction > 0.0 && skin.stiffness > 0.0,
             normal_stiffness: Two::splat(normal.stiffness),
             damping: Two::splat(normal.damping),
             skin_stiffness: Two::splat(skin.stiffness),
@@ -80,9 +77,9 @@ impl Laws {
         let spring = self.normal_stiffness * contact.overlap;
         let normal_force = (spring - self.damping * contact.normal_velocity).fast_max(zero) & touches;
 
-        let lost = ((spring - normal_force) & touches) * contact.normal_velocity;
+        let lost = || ((spring - normal_force) & touches) * contact.normal_velocity;
         if !SKIN {
-            sums.add(lost, contact.overlap, touches);
+            sums.add(lost(), contact.overlap, touches);
             return (normal_force, zero);
         }
 
@@ -110,7 +107,7 @@ impl Laws {
         // Slip heats by the mean of the forces before and after; both point against the slip.
         let before = Two::new([one.stretch, other.stretch]);
         sums.slip_heat += self.half_skin_stiffness * (stretch + before) * slip;
-        sums.add(lost, contact.overlap, touches);
+        sums.add(lost(), contact.overlap, touches);
         let reference = ((reference + slip) & touches).to_array();
         let kept = stretch.to_array();
         (one.reference, other.reference) = (reference[0], reference[1]);

@@ -23,5 +23,5 @@ def test_changes_are_told() -> None:
 
 @pytest.mark.skipif(shutil.which("valgrind") is None, reason="valgrind is not installed")
 def test_no_scene_runs_more_instructions_than_before() -> None:
-    """A regression test. After a change that is meant: `python -m jostle_lab leave-out`, and say why in the CHANGELOG."""
+    """A regression test. After a change that is meant: `python -m jostle_lab leave-out`, and why in the CHANGELOG."""
     assert changed(read_rows([PINNED]), list(count(ROOT / "target" / "release" / "jostle"))) == []

@@ -49,7 +49,7 @@ def page(folder: Path) -> str:
             parts.append("Refused:\n" + "\n".join(_told(row) for row in refused))
     long = folder / "long.csv"
     if long.is_file():
-        parts.append("## Long runs\n\n`jostle stability --long`\n\n" + _table(read_rows([long])))
+        parts.append("## Long runs\n\nOne disk; `jostle stability --long`.\n\n" + _long_table(read_rows([long])))
     return "\n\n".join(parts) + "\n"
 
 
@@ -77,6 +77,11 @@ def _table(rows: list[Row]) -> str:
         further = ", ".join(c for c in criteria if c not in {"finite", "time", "energy", "lost"})
         lines.append([dimension, values, *(f"{number:.0e}" for number in worst), further])
     return markdown_table(["dimension", "values", "energy", "overlap", "criteria beyond the four"], lines)
+
+
+def _long_table(rows: list[Row]) -> str:
+    names = ("scene", "engine", "value", "result", "simulated_seconds", "energy_error", "criteria")
+    return markdown_table([name.replace("_", " ") for name in names], [[row[name] for name in names] for row in rows])
 
 
 def _criteria(row: Row) -> list[str]:

@@ -39,7 +39,8 @@ fn torque(random: &mut Pcg64) -> f64 {
 fn contacts_change_at_events_alone(tilt: f64, height: f64) {
     let (mut values, mut scene) = start(tilt, height);
     let mut random = Pcg64::seed_from_u64(3);
-    let (mut announced, mut together) = (0, 0);
+    let (mut announced, mut together, mut at_once) = (0, 0, 0);
+    let (mut last, mut force) = (0.0_f64, 0.0);
     let mut known = states(&scene, &values);
     for step in 1..=20_000 {
         let end = 1e-4 * f64::from(step);
@@ -51,6 +52,13 @@ fn contacts_change_at_events_alone(tilt: f64, height: f64) {
                 break;
             }
             announced += 1;
+            // The second contact of an instant: no time passes, so that the mean force is that of the step before.
+            let mean = outputs_of(&scene, &values).real("base.reaction_force");
+            if reached.time == last.next_up() {
+                at_once += 1;
+                assert_eq!(mean, force, "at {last} s");
+            }
+            (last, force) = (reached.time, mean);
             together += u32::from(now[0] != known[0] && now[1] != known[1]);
             known = now;
             if random.next_u32() % 2 == 0 {
@@ -64,7 +72,9 @@ fn contacts_change_at_events_alone(tilt: f64, height: f64) {
             values.set_by_name("torque", torque(&mut random).into()).unwrap();
         }
     }
-    println!("{announced} events announced, in {together} of them both contacts changed");
+    println!(
+        "{announced} events announced, in {together} of them both contacts changed, {at_once} at once with another"
+    );
     assert!(announced > 100, "{announced}");
 }
 

@@ -144,8 +144,11 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
             }
         };
         let (now, setup) = (&self.engine.state().now, self.engine.setup());
-        let gained = (now.disk[4] - upward) / (reached.time - from);
-        self.report.reaction_force = -setup.mass * (gained + setup.gravity);
+        // A step of one bit tells of the second of two contacts: the disk has not gone on, and the mean is that before.
+        if reached.time > from.next_up() {
+            let gained = (now.disk[4] - upward) / (reached.time - from);
+            self.report.reaction_force = -setup.mass * (gained + setup.gravity);
+        }
         self.report.time = reached.time;
         Ok(reached)
     }

@@ -158,11 +158,12 @@ impl<E: Excitation> ThreeDisk<E> {
                     self.state.time = self.state.time.next_up();
                     return Ok(true);
                 }
-                let after_now = |node: &&Node| cell_start + node.offset > self.state.time;
-                let event = self.course.events.iter().find(after_now);
-                let time = event.map(|node| cell_start + node.offset);
-                if let Some(time) = time.filter(|time| *time <= end_time) {
-                    self.reach(cell_start, time);
+                let mut times = self.course.events.iter().map(|node| cell_start + node.offset);
+                let next = times.find(|time| *time > self.state.time);
+                let event = next.filter(|time| *time <= end_time);
+                if let Some((time, node)) = event.and_then(|time| Some((time, self.last_event_at(cell_start, time)?))) {
+                    self.state.time = time;
+                    self.state.now = node;
                     return Ok(true);
                 }
             }
@@ -179,24 +180,18 @@ impl<E: Excitation> ThreeDisk<E> {
         Ok(false)
     }
 
-    /// The disk after an event that falls on the present time, to rounding, but has not happened yet: the second contact,
-    /// if what drives the disk was changed when the first one did. Told one bit of time later than it is, since time
-    /// must go on.
-    fn pending(&self, cell_start: f64) -> Option<Node> {
-        let now = &self.state.now;
-        let events = self.course.events.iter().rev();
-        let last = events.copied().find(|node| cell_start + node.offset == self.state.time);
-        last.filter(|node| node.contacts != now.contacts)
+    /// The disk after the last event of the present cell that falls on `time` \[s\], to rounding of time: of two contacts
+    /// that change together neither is left behind.
+    fn last_event_at(&self, cell_start: f64, time: f64) -> Option<Node> {
+        let mut events = self.course.events.iter().rev();
+        events.find(|node| cell_start + node.offset == time).copied()
     }
 
-    /// Goes to the last event of the present cell that falls on `time` \[s\], to rounding of time: of two contacts that
-    /// change together neither is left behind.
-    fn reach(&mut self, cell_start: f64, time: f64) {
-        let then = |node: &&Node| cell_start + node.offset == time;
-        if let Some(node) = self.course.events.iter().rev().find(then) {
-            self.state.now = *node;
-        }
-        self.state.time = time;
+    /// The disk after an event that falls on the present time but has not happened yet: the second contact, if what drives
+    /// the disk was changed when the first one did. Told one bit of time later than it is, since time must go on.
+    fn pending(&self, cell_start: f64) -> Option<Node> {
+        let last = self.last_event_at(cell_start, self.state.time);
+        last.filter(|node| node.contacts != self.state.now.contacts)
     }
 
     /// Start \[s\] of the cell that is `ahead` of the present one.

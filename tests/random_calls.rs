@@ -2,6 +2,8 @@
 //! does for hours, and the inputs that it has found worth keeping.
 #![allow(unsafe_code, dead_code, clippy::undocumented_unsafe_blocks)]
 
+#[path = "../fuzz/harness/corpus.rs"]
+mod corpus;
 #[path = "../fuzz/harness/fmi.rs"]
 mod fmi;
 #[path = "../fuzz/harness/fmi_calls.rs"]
@@ -30,11 +32,8 @@ proptest! {
 
 #[test]
 fn the_corpus_is_answered() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/fuzz/corpus/fmi_probe");
-    let mut inputs = 0;
-    for file in std::fs::read_dir(folder).expect("the corpus") {
-        fmi_calls::run(&std::fs::read(file.expect("a file").path()).expect("readable"));
-        inputs += 1;
-    }
+    let inputs = corpus::replay(concat!(env!("CARGO_MANIFEST_DIR"), "/fuzz/corpus/fmi_probe"), |bytes| {
+        fmi_calls::run(bytes);
+    });
     assert!(inputs > 20, "{inputs} inputs");
 }

@@ -4,6 +4,8 @@
 
 #[path = "../fuzz/harness/any_scene.rs"]
 mod any_scene;
+#[path = "../fuzz/harness/corpus.rs"]
+mod corpus;
 #[path = "../fuzz/harness/fmi.rs"]
 mod fmi;
 #[path = "../fuzz/harness/fmi_calls.rs"]
@@ -36,11 +38,8 @@ fn no_scene_is_left_out() {
 
 #[test]
 fn the_corpus_is_answered() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/fuzz/corpus/fmi_scene");
-    let mut inputs = 0;
-    for file in std::fs::read_dir(folder).expect("the corpus") {
-        fmi_calls::run(&std::fs::read(file.expect("a file").path()).expect("readable"));
-        inputs += 1;
-    }
+    let inputs = corpus::replay(concat!(env!("CARGO_MANIFEST_DIR"), "/fuzz/corpus/fmi_scene"), |bytes| {
+        fmi_calls::run(bytes);
+    });
     assert!(inputs > 20, "{inputs} inputs");
 }

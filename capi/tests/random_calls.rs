@@ -4,6 +4,8 @@
 
 #[path = "../../fuzz/harness/c_calls.rs"]
 mod c_calls;
+#[path = "../../fuzz/harness/corpus.rs"]
+mod corpus;
 #[path = "../../fuzz/harness/hand.rs"]
 mod hand;
 
@@ -20,11 +22,11 @@ proptest! {
 
 #[test]
 fn the_corpus_is_answered() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/corpus/c_library");
-    let mut inputs = 0;
-    for file in std::fs::read_dir(folder).expect("the corpus") {
-        c_calls::run(&std::fs::read(file.expect("a file").path()).expect("readable"));
-        inputs += 1;
-    }
+    let inputs = corpus::replay(
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/corpus/c_library"),
+        |bytes| {
+            c_calls::run(bytes);
+        },
+    );
     assert!(inputs > 20, "{inputs} inputs");
 }

@@ -239,7 +239,12 @@ class FmuGrains:
         else:
             status = self._set(component, inputs.references, 2, inputs.pointer, 2)
         self._check(status, "setting the base")
-        ready = perf_counter()
+        self.costs["get and set"] += perf_counter() - started
+        return self._go(step)
+
+    def _go(self, step: float) -> float:
+        """Step with the inputs as they stand; the force over the step [N]."""
+        ready, component = perf_counter(), self._fmu.component
         if self.fmi_version == 2:
             status = self._do_step(component, self._time, step, 0)
         else:
@@ -247,7 +252,6 @@ class FmuGrains:
         self._check(status, "stepping")
         self._advance_clock(step)
         self.costs["step"] += perf_counter() - ready
-        self.costs["get and set"] += ready - started
         return float(self._read(self._force)[0])
 
     def tell_rate(self, velocity: float) -> None:
@@ -263,10 +267,7 @@ class FmuGrains:
     def step_on(self, displacement: float, step: float) -> float:
         """As `step`, with the velocity as it was told last."""
         self.write("base.displacement", displacement)
-        status = self._do_step(self._fmu.component, self._time, step, 0)
-        self._check(status, "stepping")
-        self._advance_clock(step)
-        return float(self._read(self._force)[0])
+        return self._go(step)
 
     def _advance_clock(self, step: float) -> None:
         """Time is start + n h while h stays the same."""

@@ -84,6 +84,15 @@ impl BaseDrive for FollowsInput {
     }
 }
 
+/// The sine that the parameters of a scene tell.
+pub fn sine_of(values: &Values) -> Sine {
+    Sine {
+        amplitude: values.real("drive.amplitude"),
+        frequency: values.real("drive.frequency"),
+        phase: values.real("drive.phase"),
+    }
+}
+
 impl BaseDrive for Sine {
     const NAME: &'static str = "sine";
     const STEERED: bool = false;
@@ -118,11 +127,7 @@ impl BaseDrive for Sine {
     }
 
     fn new(_start_time: f64, values: &Values) -> Result<Self> {
-        Ok(Self {
-            amplitude: values.real("drive.amplitude"),
-            frequency: values.real("drive.frequency"),
-            phase: values.real("drive.phase"),
-        })
+        Ok(sine_of(values))
     }
 
     fn aim(&mut self, _time: f64, _duration: f64, _values: &Values) {}

@@ -33,6 +33,16 @@ pub use variables::{Causality, Kind, Quantity, Value, Variable};
 /// Name of the independent variable of every component.
 pub const TIME: &str = "time";
 
+/// What the time step of one soft disk depends on besides its drive: its fastest mode, and the choice of the user.
+const STEP_OF_ONE_DISK: &[&str] = &[
+    "disk.mass",
+    "contact.normal_stiffness",
+    "contact.stiffness_ratio",
+    "contact.normal_damping",
+    "contact.friction",
+    "time_step",
+];
+
 /// Name without the index at its end: `disk.x` of `disk.x[3]`.
 pub fn stem(name: &str) -> &str {
     match name.strip_suffix(']').and_then(|rest| rest.rsplit_once('[')) {

@@ -1,6 +1,7 @@
 //! What the outputs depend on before the first step: a disk at rest on its supports, or lifted off them, that may spin.
 
 use super::ThreeDiskDrive;
+use crate::scene::STEP_OF_ONE_DISK;
 
 /// Where the disk would rest.
 const REST: &[&str] = &[
@@ -15,16 +16,6 @@ const REST: &[&str] = &[
 
 const DROP: &[&str] = &["disk.drop_height"];
 
-/// What the fastest mode depends on.
-const FASTEST: &[&str] = &[
-    "disk.mass",
-    "contact.normal_stiffness",
-    "contact.stiffness_ratio",
-    "contact.normal_damping",
-    "contact.friction",
-    "time_step",
-];
-
 /// See [`Scene::initial_dependencies`](crate::scene::Scene::initial_dependencies).
 pub fn dependencies<D: ThreeDiskDrive>(name: &str) -> Vec<&'static str> {
     let of_contact = name.strip_prefix("contact[").and_then(|rest| rest.split_once("]."));
@@ -32,7 +23,7 @@ pub fn dependencies<D: ThreeDiskDrive>(name: &str) -> Vec<&'static str> {
     let overlap = || [REST, DROP, D::PLACES_AT_START].concat();
     let force = || [REST, DROP, D::PLACES_AT_START, D::RATES_AT_START].concat();
     match member {
-        "chosen_time_step" => [FASTEST, D::PERIOD].concat(),
+        "chosen_time_step" => [STEP_OF_ONE_DISK, D::PERIOD].concat(),
         "disk.x[1]" => [REST, D::PLACES_AT_START].concat(),
         "disk.y[1]" | "overlap" | "energy.potential" | "energy.elastic" => overlap(),
         // A dashpot may pull a contact open.

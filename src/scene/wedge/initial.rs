@@ -1,6 +1,6 @@
 //! What the outputs of a wedge depend on before the first step: a disk thrown across the bisector from some height.
 
-use crate::scene::stem;
+use crate::scene::{STEP_OF_ONE_DISK, stem};
 
 /// Height up the bisector and the bisector itself.
 const PLACE: &[&str] = &["wedge.aperture", "wedge.tilt", "disk.radius", "disk.drop_height"];
@@ -22,16 +22,6 @@ pub struct AtStart {
     pub frequency: &'static [&'static str],
 }
 
-/// What a time step depends on besides.
-const CONTACT: &[&str] = &[
-    "disk.mass",
-    "contact.normal_stiffness",
-    "contact.stiffness_ratio",
-    "contact.normal_damping",
-    "contact.friction",
-    "time_step",
-];
-
 /// See [`Scene::initial_dependencies`](crate::scene::Scene::initial_dependencies).
 pub fn dependencies(name: &str, engine: AtStart) -> Vec<&'static str> {
     let AtStart {
@@ -48,7 +38,7 @@ pub fn dependencies(name: &str, engine: AtStart) -> Vec<&'static str> {
         "energy.potential" => [PLACE, place, displacement, &["gravity", "disk.mass"]].concat(),
         "base.position" => displacement.to_vec(),
         "base.acceleration" => acceleration.to_vec(),
-        "chosen_time_step" => [CONTACT, frequency].concat(),
+        "chosen_time_step" => [STEP_OF_ONE_DISK, frequency].concat(),
         // In flight without spin, and nothing has happened yet.
         _ => Vec::new(),
     }

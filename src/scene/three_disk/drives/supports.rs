@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::ThreeDiskDrive;
-use crate::drive::Sine;
 use crate::drive::excitation::{NoiseSign, RandomSupports, SineSupports, SupportMotion, Vibration};
+use crate::scene::base_drive::sine_of;
 use crate::scene::{OutputWriter, TIME, Unit, Values, Variable};
 
 const SIGNS: &[(&str, &str)] = &[
@@ -230,11 +230,7 @@ impl ThreeDiskDrive for SineSupports {
     fn new(_start_time: f64, _time_step: f64, values: &Values) -> Self {
         let (sine, cosine) = values.real("drive.direction").sin_cos();
         Self {
-            sine: Sine {
-                amplitude: values.real("drive.amplitude"),
-                frequency: values.real("drive.frequency"),
-                phase: values.real("drive.phase"),
-            },
+            sine: sine_of(values),
             phase_difference: values.real("drive.phase_difference"),
             direction: [cosine, sine],
         }

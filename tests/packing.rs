@@ -217,8 +217,6 @@ fn impossible_boxes_and_disks_are_refused_by_name() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
-
     /// Any radii up to a ratio of 20 in any box that holds the largest.
     #[test]
     fn any_disks_touch_and_do_not_overlap(

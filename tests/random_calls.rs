@@ -22,8 +22,6 @@ mod library {
 use proptest::prelude::*;
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
-
     #[test]
     fn any_sequence_of_calls_is_answered(bytes in prop::collection::vec(any::<u8>(), 0..1000)) {
         fmi_calls::run(&bytes);

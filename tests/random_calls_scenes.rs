@@ -21,8 +21,6 @@ mod library {
 use proptest::prelude::*;
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
-
     #[test]
     fn any_sequence_of_calls_is_answered(bytes in prop::collection::vec(any::<u8>(), 0..600)) {
         fmi_calls::run(&bytes);

@@ -12,8 +12,6 @@ mod hand;
 use proptest::prelude::*;
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
-
     #[test]
     fn any_sequence_of_calls_is_answered(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         c_calls::run(&bytes);

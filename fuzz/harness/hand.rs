@@ -3,11 +3,18 @@
 //! Pointers are null, misaligned, or to buffers as long as any length that is passed with them; a length that no memory has
 //! is passed too. That is all a C caller can get wrong short of lying about memory, which no library can see.
 
+use std::cell::RefCell;
 use std::ffi::{CString, c_char};
+use std::io::Write;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Elements of every buffer.
 pub const LONGEST: usize = 16;
+
+thread_local! {
+    /// What the calls are drawn from.
+    static INPUT: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+}
 
 static CALLS: AtomicU64 = AtomicU64::new(0);
 static STEPS: AtomicU64 = AtomicU64::new(0);
@@ -32,7 +39,10 @@ pub fn report_defects() {
         std::panic::set_hook(Box::new(|panic| {
             let told = panic.payload().downcast_ref::<String>();
             if !told.is_some_and(|text| text.starts_with("told to panic")) {
-                eprintln!("DEFECT: {panic}");
+                let input =
+                    INPUT.with_borrow(|input| input.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
+                // Straight to the file, past what gathers the output of tests: the process ends here.
+                let _ = writeln!(std::io::stderr(), "DEFECT: {panic}\nInput, to be repeated: {input}");
                 std::process::abort();
             }
         }));
@@ -68,6 +78,10 @@ impl Drop for Hand<'_> {
 
 impl<'a> Hand<'a> {
     pub fn new(bytes: &'a [u8], variables: u32, texts: &'a [CString]) -> Self {
+        INPUT.with_borrow_mut(|input| {
+            input.clear();
+            input.extend_from_slice(bytes);
+        });
         let buffers = Box::new(Buffers {
             references: [0; LONGEST],
             reals: [0.0; LONGEST],

@@ -7,6 +7,8 @@ mod fmi;
 mod fmi_calls;
 #[path = "../harness/hand.rs"]
 mod hand;
+#[path = "../harness/mutate.rs"]
+mod mutate;
 
 mod library {
     pub use fmu_probe::{Probe as Scene, fmi2, fmi3};
@@ -17,3 +19,6 @@ mod library {
 }
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fmi_calls::run(bytes));
+libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, most: usize, seed: u32| {
+    mutate::mutate(data, size, most, seed)
+});

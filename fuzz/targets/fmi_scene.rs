@@ -9,6 +9,8 @@ mod fmi;
 mod fmi_calls;
 #[path = "../harness/hand.rs"]
 mod hand;
+#[path = "../harness/mutate.rs"]
+mod mutate;
 
 mod library {
     pub use super::any_scene::{AnyScene as Scene, choices, fmi2, fmi3};
@@ -16,3 +18,6 @@ mod library {
 }
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fmi_calls::run(bytes));
+libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, most: usize, seed: u32| {
+    mutate::mutate(data, size, most, seed)
+});

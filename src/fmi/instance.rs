@@ -12,6 +12,7 @@ use super::life_cycle::{Call, Phase};
 use super::snapshot::Clock;
 use super::{TOLERANCE, arrays, token};
 use crate::error::{Error, Result};
+use crate::scene::times::check_time;
 use crate::scene::{Causality, Choice, Kind, Reached, Scene, Table, Value, Values};
 pub use values::Access;
 
@@ -134,17 +135,10 @@ impl<S: Scene> Instance<S> {
     /// Sets start and, if known, stop time \[s\].
     ///
     /// # Errors
-    /// Wrong phase; times that are not finite or not in order.
+    /// Wrong phase; a start too far from zero to be simulated; times that are not finite or not in order.
     pub fn set_up(&mut self, start: f64, stop: Option<f64>) -> Result<()> {
         Call::SetupExperiment.check(self.phase)?;
-        if !start.is_finite() {
-            return Err(Error::parameter(
-                "start time",
-                start,
-                "a finite number of seconds",
-                "Give one.",
-            ));
-        }
+        check_time("start time", start)?;
         if let Some(stop) = stop.filter(|stop| !stop.is_finite() || *stop < start) {
             return Err(Error::parameter(
                 "stop time",
@@ -275,7 +269,8 @@ impl<S: Scene> Instance<S> {
             ));
         }
         let end = current + step;
-        if !(end.is_finite() && end > now) {
+        check_time("end of the step", end)?;
+        if end <= now {
             return Err(Error::parameter(
                 "communication step size",
                 format!("{step} s"),

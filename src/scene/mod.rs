@@ -13,6 +13,7 @@ pub mod ratchet;
 mod recipe;
 mod simulation;
 pub mod three_disk;
+pub mod times;
 mod units;
 pub mod values;
 pub mod variables;

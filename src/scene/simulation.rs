@@ -10,6 +10,7 @@ use std::sync::Arc;
 use crate::engine::MOST_WORK_IN_A_CALL;
 use crate::error::{Error, Result};
 
+use super::times::check_time;
 use super::{Causality, Choice, Scene, Table, Value, Values};
 pub use saving::Saved;
 
@@ -112,11 +113,12 @@ impl<S: Scene> Simulation<S> {
     /// # Errors
     /// `end_time` is not after the present time, or the scene cannot do the step. Nothing has changed then.
     pub fn advance_to(&mut self, end_time: f64) -> Result<()> {
-        if !(end_time.is_finite() && end_time > self.time) {
+        check_time("end of the step", end_time)?;
+        if end_time <= self.time {
             return Err(Error::parameter(
                 "end of the step",
                 format!("{end_time} s"),
-                format!("a finite time after {} s, where the last step ended", self.time),
+                format!("a time after {} s, where the last step ended", self.time),
                 "Steps go forward in time.",
             ));
         }

@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::fmi::life_cycle::{Call, Phase};
 use crate::fmi::snapshot::{Clock, Snapshot};
 use crate::scene::Scene;
+use crate::scene::times::is_simulated;
 
 impl<S: Scene> Instance<S> {
     /// Saves everything that may change.
@@ -70,7 +71,7 @@ impl<S: Scene> Instance<S> {
     fn check(&self, snapshot: &Snapshot<S::State>) -> Result<()> {
         self.values.check_all(&snapshot.values)?;
         let Clock { start, now, stop } = snapshot.clock;
-        let times = start.is_finite() && now.is_finite() && now >= start && stop.is_none_or(f64::is_finite);
+        let times = is_simulated(start) && is_simulated(now) && now >= start && stop.is_none_or(f64::is_finite);
         let complete = match snapshot.phase {
             Phase::Instantiated | Phase::Initialization => true,
             Phase::Event => self.importer.event_mode && snapshot.scene.is_some(),

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{START, Simulation};
 use crate::error::{Error, Result};
 use crate::saved_bytes;
+use crate::scene::times::is_simulated;
 use crate::scene::variables::fingerprint;
 use crate::scene::{Scene, Value};
 
@@ -58,7 +59,7 @@ impl<S: Scene> Simulation<S> {
 
     fn go_to(&mut self, saved: &Saved<S::State>, anew: bool) -> Result<()> {
         let reached = S::time_of(&saved.state);
-        if !(saved.time.is_finite() && saved.time >= START && reached == saved.time) {
+        if !(is_simulated(saved.time) && saved.time >= START && reached == saved.time) {
             return Err(Error::state(
                 format!("its time is {} s and its scene's {reached} s", saved.time),
                 "Pass a state that saving gave.",

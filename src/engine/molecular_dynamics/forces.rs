@@ -5,7 +5,7 @@ use crate::drive::Motion;
 use crate::geometry::Wall;
 
 use super::contacts::{AtWall, Pair, SkinMemory};
-use super::two_contacts::{Contact, Laws, Sums, Two, two};
+use super::two_contacts::{Approach, Laws, Sums, Surfaces, Two, turned, two, vector};
 
 /// Contact laws of every contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,56 +62,93 @@ pub fn between_disks<const SKIN: bool>(
     forces: &mut [[f64; 3]],
     sums: &mut Sums,
 ) {
+    if pairs.is_empty() {
+        return; // nothing for one disk, not even the making of what follows
+    }
+    // Once more, since the lengths are not seen to be one from farther away.
+    let bodies = Bodies::new(bodies.places, bodies.rates, bodies.radii);
     let forces = &mut forces[..bodies.radii.len()];
     let (twos, rest) = pairs.as_chunks_mut();
-    for two in twos {
-        two_pairs::<SKIN>(laws, two, bodies, forces, sums);
+    let mut looks = [(Approach::default(), Surfaces::default()); BLOCK];
+    for block in twos.chunks_mut(BLOCK) {
+        for (look, two) in looks.iter_mut().zip(&*block) {
+            look_at::<SKIN>(two, bodies, look);
+        }
+        for (look, two) in looks.iter().zip(block) {
+            push::<SKIN>(laws, two, look, bodies.rates, forces, sums);
+        }
     }
     if let [last] = rest {
         // A second pair that cannot touch fills the place.
         let mut two = [*last; 2];
         (two[1].reach, two[1].skin) = (0.0, SkinMemory::OPEN);
-        two_pairs::<SKIN>(laws, &mut two, bodies, forces, sums);
+        look_at::<SKIN>(&two, bodies, &mut looks[0]);
+        push::<SKIN>(laws, &mut two, &looks[0], bodies.rates, forces, sums);
         *last = two[0];
     }
 }
 
+/// Twos of pairs that are looked at before their forces are worked out: the roots and quotients of several go on at once,
+/// where those of one would be waited for.
+const BLOCK: usize = 8;
+
+/// How the disks of two pairs lie and move.
 #[inline(always)]
-fn two_pairs<const SKIN: bool>(
-    laws: &Laws,
-    pairs: &mut [Pair; 2],
-    bodies: Bodies<'_>,
-    forces: &mut [[f64; 3]],
-    sums: &mut Sums,
-) {
+fn look_at<const SKIN: bool>(pairs: &[Pair; 2], bodies: Bodies<'_>, (approach, surfaces): &mut (Approach, Surfaces)) {
     let Bodies { places, rates, radii } = bodies;
     let first = [pairs[0].first as usize, pairs[1].first as usize];
     let second = [pairs[0].second as usize, pairs[1].second as usize];
-    let apart = |of: &[[f64; 3]], axis: usize| two(|k| of[first[k]][axis]) - two(|k| of[second[k]][axis]);
-    let (ra, rb) = (two(|k| radii[first[k]]), two(|k| radii[second[k]]));
-    let around = |of: &[[f64; 3]]| ra * two(|k| of[first[k]][2]) + rb * two(|k| of[second[k]][2]);
-
+    let apart = |of: &[[f64; 3]]| turned([0, 1].map(|k| vector(&of[first[k]]) - vector(&of[second[k]])));
     let reach = two(|k| pairs[k].reach);
-    let (dx, dy) = (apart(places, 0), apart(places, 1));
+    let ([dx, dy], [ux, uy]) = (apart(places), apart(rates));
     let distance = (dx * dx + dy * dy).sqrt();
     let inverse = 1.0 / distance;
     let (nx, ny) = (dx * inverse, dy * inverse);
-    let (ux, uy) = (apart(rates, 0), apart(rates, 1));
-    let lever = reach * inverse;
-    let contact = Contact {
-        overlap: reach - distance,
-        normal_velocity: ux * nx + uy * ny,
+    *approach = Approach {
         normal: [nx, ny],
-        surface: around(places),
-        reach,
+        overlap: reach - distance,
+        velocity: ux * nx + uy * ny,
+    };
+    if SKIN {
+        let (ra, rb) = (two(|k| radii[first[k]]), two(|k| radii[second[k]]));
+        *surfaces = Surfaces {
+            way: ra * two(|k| places[first[k]][2]) + rb * two(|k| places[second[k]][2]),
+            reach,
+            lever: reach * inverse,
+            radii: [ra, rb],
+        };
+    }
+}
+
+/// Adds the forces of two pairs.
+#[inline(always)]
+fn push<const SKIN: bool>(
+    laws: &Laws,
+    pairs: &mut [Pair; 2],
+    (approach, surfaces): &(Approach, Surfaces),
+    rates: &[[f64; 3]],
+    forces: &mut [[f64; 3]],
+    sums: &mut Sums,
+) {
+    let first = [pairs[0].first as usize, pairs[1].first as usize];
+    let second = [pairs[0].second as usize, pairs[1].second as usize];
+    let ([nx, ny], [ra, rb]) = (approach.normal, surfaces.radii);
+    let surface_velocity = || {
+        let apart = |axis: usize| two(|k| rates[first[k]][axis]) - two(|k| rates[second[k]][axis]);
+        let around = ra * two(|k| rates[first[k]][2]) + rb * two(|k| rates[second[k]][2]);
+        (apart(0) * ny - apart(1) * nx) * surfaces.lever + around
     };
     let [one, other] = pairs;
     let skins = [&mut one.skin, &mut other.skin];
-    let (normal, tangential) = laws.act::<SKIN>(&contact, skins, sums, || (ux * ny - uy * nx) * lever + around(rates));
+    let (normal, tangential) = laws.act::<SKIN>(approach, surfaces, skins, sums, surface_velocity);
 
-    let sideways = tangential * lever;
-    let fx = (normal * nx + sideways * ny).to_array();
-    let fy = (normal * ny - sideways * nx).to_array();
+    let (mut fx, mut fy) = (normal * nx, normal * ny);
+    if SKIN {
+        let sideways = tangential * surfaces.lever;
+        fx += sideways * ny;
+        fy -= sideways * nx;
+    }
+    let (fx, fy) = (fx.to_array(), fy.to_array());
     for k in 0..2 {
         let force = &mut forces[first[k]];
         force[0] += fx[k];
@@ -191,16 +228,21 @@ fn two_at_walls<const SKIN: bool>(
     let (x, y) = (place(0), place(1) - follows * base.displacement);
     let (vx, vy) = (rate(0), rate(1) - follows * base.velocity);
     let distance = nx * x + ny * y - two(|k| walls[wall[k]].offset);
-    let contact = Contact {
-        overlap: radius - distance - Two::new(aside),
-        normal_velocity: nx * vx + ny * vy,
+    let approach = Approach {
         normal: [nx, ny],
-        surface: radius * place(2) + tx * x + ty * y,
-        reach: Two::splat(0.0),
+        overlap: radius - distance - Two::new(aside),
+        velocity: nx * vx + ny * vy,
     };
+    let surfaces = Surfaces {
+        way: radius * place(2) + tx * x + ty * y,
+        reach: Two::splat(0.0),
+        lever: Two::splat(1.0),
+        radii: [radius; 2],
+    };
+    let surface_velocity = || tx * vx + ty * vy + radius * rate(2);
     let [one, other] = near;
     let skins = [&mut one.skin, &mut other.skin];
-    let (normal, tangential) = laws.act::<SKIN>(&contact, skins, sums, || tx * vx + ty * vy + radius * rate(2));
+    let (normal, tangential) = laws.act::<SKIN>(&approach, &surfaces, skins, sums, surface_velocity);
 
     let fx = (normal * nx + tangential * tx).to_array();
     let fy = (normal * ny + tangential * ty).to_array();

@@ -307,7 +307,7 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         at_walls::<SKIN>(&laws, &mut state.at_walls, (walls, state.base), bodies, ours, &mut sums);
         let vertical = from_walls.chunks_exact(2).zip(walls);
         state.base_force = vertical.map(|(force, wall)| wall.follows_base * force[1]).sum();
-        sums.tally()
+        sums.tally::<SKIN>(state.contacts)
     }
 
     /// Searches anew if a disk or the base has moved by half the margin since the last search.
@@ -374,6 +374,10 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         self.neighbours.find_pairs(cloud, &mut state.pairs);
         self.neighbours
             .find_at_walls(cloud, &self.setup.walls, state.searched_base, &mut state.at_walls);
+        // A closed one whose disks have jumped apart is not listed any more.
+        let between = state.pairs.iter().filter(|pair| pair.skin.is_closed()).count();
+        let at_walls = state.at_walls.iter().filter(|near| near.skin.is_closed()).count();
+        state.contacts = (between + at_walls) as u32;
     }
 }
 

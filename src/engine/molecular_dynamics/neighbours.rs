@@ -7,7 +7,7 @@
 use crate::geometry::Wall;
 
 use super::contacts::{AtWall, Pair, SkinMemory};
-use super::two_contacts::{Two, two};
+use super::two_contacts::{Two, turned, vector};
 
 /// Gap, in smallest radii, below which a pair is in the outer list: it lasts for long at rest and stays short.
 const OUTER_MARGIN: f64 = 0.3;
@@ -134,8 +134,7 @@ pub fn farthest_squared(now: &[[f64; 3]], then: &[[f64; 3]]) -> f64 {
 
 #[inline(always)]
 fn way_squared(now: &[[f64; 3]; 2], then: &[[f64; 3]; 2]) -> Two {
-    let way = |axis: usize| two(|k| now[k][axis]) - two(|k| then[k][axis]);
-    let (dx, dy) = (way(0), way(1));
+    let [dx, dy] = turned([0, 1].map(|k| vector(&now[k]) - vector(&then[k])));
     dx * dx + dy * dy
 }
 

@@ -18,18 +18,41 @@ pub fn two(of: impl Fn(usize) -> f64) -> Two {
     Two::new([of(0), of(1)])
 }
 
-/// Two candidates: what the laws need.
-pub struct Contact {
+/// The first two of three numbers: x and y of a place or a rate, in one fetch.
+#[inline(always)]
+pub fn vector(of: &[f64; 3]) -> Two {
+    Two::new([of[0], of[1]])
+}
+
+/// x of both and y of both from two vectors.
+#[inline(always)]
+pub fn turned([one, other]: [Two; 2]) -> [Two; 2] {
+    let ([one_x, one_y], [other_x, other_y]) = (one.to_array(), other.to_array());
+    [Two::new([one_x, other_x]), Two::new([one_y, other_y])]
+}
+
+/// Two candidates along their normals.
+#[derive(Clone, Copy, Default)]
+pub struct Approach {
+    /// Towards the first body.
+    pub normal: [Two; 2],
     /// \[m\], positive while they touch.
     pub overlap: Two,
     /// u_n \[m/s\], negative on approach.
-    pub normal_velocity: Two,
-    /// Towards the first body.
-    pub normal: [Two; 2],
+    pub velocity: Two,
+}
+
+/// Two candidates along their surfaces.
+#[derive(Clone, Copy, Default)]
+pub struct Surfaces {
     /// lambda \[m\] with beta counted from zero (P 4.5, 4.7).
-    pub surface: Two,
-    /// Lever of beta in lambda: the sum of the radii, and 0 at a wall, whose normal does not turn.
+    pub way: Two,
+    /// Lever of beta in lambda \[m\]: the sum of the radii, and 0 at a wall, whose normal does not turn.
     pub reach: Two,
+    /// Force on the centres over that on the surfaces: the sum of the radii over the distance, and 1 at a wall.
+    pub lever: Two,
+    /// Of the first bodies and the second \[m\].
+    pub radii: [Two; 2],
 }
 
 /// The contact laws, with what follows from them worked out once an evaluation.
@@ -67,19 +90,25 @@ impl Laws {
     #[inline(always)]
     pub fn act<const SKIN: bool>(
         &self,
-        contact: &Contact,
+        approach: &Approach,
+        surfaces: &Surfaces,
         skins: [&mut SkinMemory; 2],
         sums: &mut Sums,
         surface_velocity: impl Fn() -> Two,
     ) -> (Two, Two) {
+        let Approach {
+            normal,
+            overlap,
+            velocity,
+        } = *approach;
         let zero = Two::splat(0.0);
-        let touches = contact.overlap.simd_gt(zero);
-        let spring = self.normal_stiffness * contact.overlap;
-        let normal_force = (spring - self.damping * contact.normal_velocity).fast_max(zero) & touches;
-
-        let lost = || ((spring - normal_force) & touches) * contact.normal_velocity;
+        let touches = overlap.simd_gt(zero);
+        let spring = self.normal_stiffness * overlap;
+        let normal_force = (spring - self.damping * velocity).fast_max(zero) & touches;
+        let lost = || ((spring - normal_force) & touches) * velocity;
         if !SKIN {
-            sums.add(lost(), contact.overlap, touches);
+            sums.add(lost(), overlap);
+            sums.touching += Two::splat(1.0) & touches;
             return (normal_force, zero);
         }
 
@@ -87,12 +116,13 @@ impl Laws {
         let closed = two(|k| [one.direction[0], other.direction[0]][k]).simd_ne(zero)
             | two(|k| [one.direction[1], other.direction[1]][k]).simd_ne(zero);
         if closed.to_bitmask() != touches.to_bitmask() {
-            self.close_or_open(contact, [&mut *one, &mut *other], sums, surface_velocity());
+            let closing = (surfaces.way, surface_velocity());
+            self.close_or_open(approach, closing, [&mut *one, &mut *other], sums);
         }
-        let sine = sine_of_turn(contact, [one, other]);
+        let sine = sine_of_turn(normal, [one, other]);
         let sine = if sine.abs().simd_ge(Two::splat(SMALL_SINE)).any() {
-            follow(contact, [&mut *one, &mut *other]);
-            sine_of_turn(contact, [one, other])
+            follow(normal, surfaces.reach, [&mut *one, &mut *other]);
+            sine_of_turn(normal, [one, other])
         } else {
             sine
         };
@@ -100,14 +130,14 @@ impl Laws {
         let turn = sine * (1.0 + square * (1.0 / 6.0 + square * (3.0 / 40.0)));
 
         let reference = Two::new([one.reference, other.reference]);
-        let trial = contact.surface - contact.reach * turn - reference;
+        let trial = surfaces.way - surfaces.reach * turn - reference;
         let limit = self.slack * normal_force;
         let stretch = trial.fast_max(zero - limit).fast_min(limit) & touches;
         let slip = trial - stretch;
         // Slip heats by the mean of the forces before and after; both point against the slip.
         let before = Two::new([one.stretch, other.stretch]);
         sums.slip_heat += self.half_skin_stiffness * (stretch + before) * slip;
-        sums.add(lost(), contact.overlap, touches);
+        sums.add(lost(), overlap);
         let reference = ((reference + slip) & touches).to_array();
         let kept = stretch.to_array();
         (one.reference, other.reference) = (reference[0], reference[1]);
@@ -119,25 +149,33 @@ impl Laws {
     /// what its skin still held.
     #[cold]
     #[inline(never)]
-    fn close_or_open(&self, contact: &Contact, skins: [&mut SkinMemory; 2], sums: &mut Sums, surface_velocity: Two) {
+    fn close_or_open(
+        &self,
+        approach: &Approach,
+        (way, surface_velocity): (Two, Two),
+        skins: [&mut SkinMemory; 2],
+        sums: &mut Sums,
+    ) {
         for (k, skin) in skins.into_iter().enumerate() {
             let at = |two: Two| two.to_array()[k];
-            let (overlap, approach) = (at(contact.overlap), -at(contact.normal_velocity));
+            let (overlap, speed) = (at(approach.overlap), -at(approach.velocity));
             match (skin.is_closed(), overlap > 0.0) {
                 (false, true) => {
-                    // Closed since `overlap / approach` ago, and for no longer than this step.
-                    let since = if approach * self.step > overlap {
-                        overlap / approach
+                    sums.closed += 1;
+                    // Closed since `overlap / speed` ago, and for no longer than this step.
+                    let since = if speed * self.step > overlap {
+                        overlap / speed
                     } else {
                         self.step
                     };
                     *skin = SkinMemory {
-                        direction: contact.normal.map(at),
-                        reference: at(contact.surface) - at(surface_velocity) * since,
+                        direction: approach.normal.map(at),
+                        reference: at(way) - at(surface_velocity) * since,
                         stretch: 0.0,
                     };
                 }
                 (true, false) => {
+                    sums.closed -= 1;
                     sums.lost_skin += at(self.half_skin_stiffness) * skin.stretch * skin.stretch;
                     *skin = SkinMemory::OPEN;
                 }
@@ -149,20 +187,20 @@ impl Laws {
 
 /// Sines of the angles by which the normals are turned from the remembered directions; 0 while open.
 #[inline(always)]
-fn sine_of_turn(contact: &Contact, [one, other]: [&SkinMemory; 2]) -> Two {
+fn sine_of_turn(normal: [Two; 2], [one, other]: [&SkinMemory; 2]) -> Two {
     let x = Two::new([one.direction[0], other.direction[0]]);
     let y = Two::new([one.direction[1], other.direction[1]]);
-    x * contact.normal[1] - y * contact.normal[0]
+    x * normal[1] - y * normal[0]
 }
 
 /// Lets the remembered directions follow normals that have turned far.
 #[cold]
 #[inline(never)]
-fn follow(contact: &Contact, skins: [&mut SkinMemory; 2]) {
+fn follow(normal: [Two; 2], reach: Two, skins: [&mut SkinMemory; 2]) {
     for (k, skin) in skins.into_iter().enumerate().filter(|(_, skin)| skin.is_closed()) {
         let at = |two: Two| two.to_array()[k];
         // What is left is below the limit, and computed again by the caller.
-        skin.turn(contact.normal.map(at), at(contact.reach));
+        skin.turn(normal.map(at), at(reach));
     }
 }
 
@@ -172,26 +210,32 @@ pub struct Sums {
     dissipated_power: Two,
     slip_heat: Two,
     deepest: Two,
-    contacts: Two,
+    /// Of those without skins, which do not remember that they are closed.
+    touching: Two,
+    /// Contacts closed less contacts opened since the last evaluation.
+    closed: i64,
     lost_skin: f64,
 }
 
 impl Sums {
     #[inline(always)]
-    fn add(&mut self, lost: Two, overlap: Two, touches: Two) {
+    fn add(&mut self, lost: Two, overlap: Two) {
         self.dissipated_power += lost;
         self.deepest = overlap.fast_max(self.deepest);
-        self.contacts += Two::splat(1.0) & touches;
     }
 
-    /// Both places together.
-    pub fn tally(&self) -> Tally {
+    /// Both places together; with skins, `closed` contacts were closed before.
+    pub fn tally<const SKIN: bool>(&self, closed: u32) -> Tally {
         let [one, other] = self.deepest.to_array();
         Tally {
             dissipated_power: self.dissipated_power.reduce_add(),
             slip_heat: self.slip_heat.reduce_add() + self.lost_skin,
             deepest: one.max(other),
-            contacts: self.contacts.reduce_add() as u32,
+            contacts: if SKIN {
+                (i64::from(closed) + self.closed) as u32
+            } else {
+                self.touching.reduce_add() as u32
+            },
         }
     }
 }

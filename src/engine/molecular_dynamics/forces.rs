@@ -5,7 +5,7 @@ use crate::drive::Motion;
 use crate::geometry::Wall;
 
 use super::contacts::{AtWall, Pair, SkinMemory};
-use super::two_contacts::{Approach, Laws, Sums, Surfaces, Two, turned, two, vector};
+use super::two_contacts::{Approach, Laws, Sliding, Sums, Surfaces, Two, turned, two, vector};
 
 /// Contact laws of every contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,28 +29,32 @@ pub struct Tally {
     pub contacts: u32,
 }
 
-/// Bodies as the forces see them: places (x, y, angle), rates, radii. All of one length.
+/// Bodies as the forces see them. All of one length.
 #[derive(Clone, Copy)]
 pub struct Bodies<'a> {
+    /// x, y and angle.
     places: &'a [[f64; 3]],
     rates: &'a [[f64; 3]],
     radii: &'a [f64],
+    /// How far each surface has turned \[m\]: radius times angle. Only with skins.
+    rims: &'a [f64],
 }
 
 impl<'a> Bodies<'a> {
-    /// The first so many places and rates as there are radii.
-    pub fn new(places: &'a [[f64; 3]], rates: &'a [[f64; 3]], radii: &'a [f64]) -> Self {
-        // One length for all, so that one check of an index serves all three.
+    /// The first so many places, rates and rims as there are radii.
+    pub fn new(places: &'a [[f64; 3]], rates: &'a [[f64; 3]], radii: &'a [f64], rims: &'a [f64]) -> Self {
+        // One length for all, so that one check of an index serves all four.
         let count = radii.len();
         Self {
             places: &places[..count],
             rates: &rates[..count],
             radii,
+            rims: &rims[..count],
         }
     }
 }
 
-/// Adds the forces between disks to `forces` (x, y, torque of each).
+/// Adds the forces between disks to `forces`: x, y and torque over radius of each.
 ///
 /// The tangential force on the centres is `tau (R_a + R_b) / r` while the torques have the arms R_a and R_b: so
 /// angular momentum is kept when disks overlap, and the skin is elastic in the strict sense, force = -gradient.
@@ -66,7 +70,7 @@ pub fn between_disks<const SKIN: bool>(
         return; // nothing for one disk, not even the making of what follows
     }
     // Once more, since the lengths are not seen to be one from farther away.
-    let bodies = Bodies::new(bodies.places, bodies.rates, bodies.radii);
+    let bodies = Bodies::new(bodies.places, bodies.rates, bodies.radii, bodies.rims);
     let forces = &mut forces[..bodies.radii.len()];
     let (twos, rest) = pairs.as_chunks_mut();
     let mut looks = [(Approach::default(), Surfaces::default()); BLOCK];
@@ -75,7 +79,7 @@ pub fn between_disks<const SKIN: bool>(
             look_at::<SKIN>(two, bodies, look);
         }
         for (look, two) in looks.iter().zip(block) {
-            push::<SKIN>(laws, two, look, bodies.rates, forces, sums);
+            push::<SKIN>(laws, two, look, bodies, forces, sums);
         }
     }
     if let [last] = rest {
@@ -83,7 +87,7 @@ pub fn between_disks<const SKIN: bool>(
         let mut two = [*last; 2];
         (two[1].reach, two[1].skin) = (0.0, SkinMemory::OPEN);
         look_at::<SKIN>(&two, bodies, &mut looks[0]);
-        push::<SKIN>(laws, &mut two, &looks[0], bodies.rates, forces, sums);
+        push::<SKIN>(laws, &mut two, &looks[0], bodies, forces, sums);
         *last = two[0];
     }
 }
@@ -95,7 +99,9 @@ const BLOCK: usize = 8;
 /// How the disks of two pairs lie and move.
 #[inline(always)]
 fn look_at<const SKIN: bool>(pairs: &[Pair; 2], bodies: Bodies<'_>, (approach, surfaces): &mut (Approach, Surfaces)) {
-    let Bodies { places, rates, radii } = bodies;
+    let Bodies {
+        places, rates, rims, ..
+    } = bodies;
     let first = [pairs[0].first as usize, pairs[1].first as usize];
     let second = [pairs[0].second as usize, pairs[1].second as usize];
     let apart = |of: &[[f64; 3]]| turned([0, 1].map(|k| vector(&of[first[k]]) - vector(&of[second[k]])));
@@ -110,13 +116,32 @@ fn look_at<const SKIN: bool>(pairs: &[Pair; 2], bodies: Bodies<'_>, (approach, s
         velocity: ux * nx + uy * ny,
     };
     if SKIN {
-        let (ra, rb) = (two(|k| radii[first[k]]), two(|k| radii[second[k]]));
         *surfaces = Surfaces {
-            way: ra * two(|k| places[first[k]][2]) + rb * two(|k| places[second[k]][2]),
+            way: two(|k| rims[first[k]]) + two(|k| rims[second[k]]),
             reach,
             lever: reach * inverse,
-            radii: [ra, rb],
         };
+    }
+}
+
+/// The surfaces of two pairs.
+struct Rubbing<'a> {
+    bodies: Bodies<'a>,
+    first: [usize; 2],
+    second: [usize; 2],
+    normal: [Two; 2],
+    lever: Two,
+}
+
+impl Sliding for Rubbing<'_> {
+    #[inline(always)]
+    fn velocity(&self) -> Two {
+        let Bodies { rates, radii, .. } = self.bodies;
+        let (first, second) = (self.first, self.second);
+        let apart = |axis: usize| two(|k| rates[first[k]][axis]) - two(|k| rates[second[k]][axis]);
+        let around = |disk: [usize; 2]| two(|k| radii[disk[k]]) * two(|k| rates[disk[k]][2]);
+        let [nx, ny] = self.normal;
+        (apart(0) * ny - apart(1) * nx) * self.lever + (around(first) + around(second))
     }
 }
 
@@ -126,21 +151,23 @@ fn push<const SKIN: bool>(
     laws: &Laws,
     pairs: &mut [Pair; 2],
     (approach, surfaces): &(Approach, Surfaces),
-    rates: &[[f64; 3]],
+    bodies: Bodies<'_>,
     forces: &mut [[f64; 3]],
     sums: &mut Sums,
 ) {
     let first = [pairs[0].first as usize, pairs[1].first as usize];
     let second = [pairs[0].second as usize, pairs[1].second as usize];
-    let ([nx, ny], [ra, rb]) = (approach.normal, surfaces.radii);
-    let surface_velocity = || {
-        let apart = |axis: usize| two(|k| rates[first[k]][axis]) - two(|k| rates[second[k]][axis]);
-        let around = ra * two(|k| rates[first[k]][2]) + rb * two(|k| rates[second[k]][2]);
-        (apart(0) * ny - apart(1) * nx) * surfaces.lever + around
+    let [nx, ny] = approach.normal;
+    let sliding = Rubbing {
+        bodies,
+        first,
+        second,
+        normal: [nx, ny],
+        lever: surfaces.lever,
     };
     let [one, other] = pairs;
     let skins = [&mut one.skin, &mut other.skin];
-    let (normal, tangential) = laws.act::<SKIN>(approach, surfaces, skins, sums, surface_velocity);
+    let (normal, tangential) = laws.act::<SKIN>(approach, surfaces, skins, sums, sliding);
 
     let (mut fx, mut fy) = (normal * nx, normal * ny);
     if SKIN {
@@ -158,10 +185,10 @@ fn push<const SKIN: bool>(
         force[1] -= fy[k];
     }
     if SKIN {
-        let (ta, tb) = ((tangential * ra).to_array(), (tangential * rb).to_array());
+        let along = tangential.to_array();
         for k in 0..2 {
-            forces[first[k]][2] += ta[k];
-            forces[second[k]][2] += tb[k];
+            forces[first[k]][2] += along[k];
+            forces[second[k]][2] += along[k];
         }
     }
 }
@@ -206,6 +233,21 @@ pub fn at_walls<const SKIN: bool>(
     }
 }
 
+/// The surfaces of two disks at walls: velocities of the centres, and of the rims round them \[m/s\].
+struct AlongWall {
+    tangent: [Two; 2],
+    velocity: [Two; 2],
+    rim: Two,
+}
+
+impl Sliding for AlongWall {
+    #[inline(always)]
+    fn velocity(&self) -> Two {
+        let ([tx, ty], [vx, vy]) = (self.tangent, self.velocity);
+        tx * vx + ty * vy + self.rim
+    }
+}
+
 /// `aside` moves each disk away from its wall: a second one that is not there is infinitely far.
 #[inline(always)]
 fn two_at_walls<const SKIN: bool>(
@@ -234,25 +276,28 @@ fn two_at_walls<const SKIN: bool>(
         velocity: nx * vx + ny * vy,
     };
     let surfaces = Surfaces {
-        way: radius * place(2) + tx * x + ty * y,
+        way: two(|k| bodies.rims[disk[k]]) + tx * x + ty * y,
         reach: Two::splat(0.0),
         lever: Two::splat(1.0),
-        radii: [radius; 2],
     };
-    let surface_velocity = || tx * vx + ty * vy + radius * rate(2);
+    let sliding = AlongWall {
+        tangent: [tx, ty],
+        velocity: [vx, vy],
+        rim: radius * rate(2),
+    };
     let [one, other] = near;
     let skins = [&mut one.skin, &mut other.skin];
-    let (normal, tangential) = laws.act::<SKIN>(&approach, &surfaces, skins, sums, surface_velocity);
+    let (normal, tangential) = laws.act::<SKIN>(&approach, &surfaces, skins, sums, sliding);
 
     let fx = (normal * nx + tangential * tx).to_array();
     let fy = (normal * ny + tangential * ty).to_array();
-    let torque = (tangential * radius).to_array();
+    let along = tangential.to_array();
     for k in 0..2 {
         let force = &mut forces[disk[k]];
         force[0] += fx[k];
         force[1] += fy[k];
         if SKIN {
-            force[2] += torque[k];
+            force[2] += along[k];
         }
         let force = &mut from_walls[wall[k]];
         force[0] += fx[k];

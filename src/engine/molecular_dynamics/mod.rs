@@ -46,7 +46,7 @@ const SNAP: f64 = 1e-6;
 pub struct MolecularDynamics<I, D> {
     setup: Setup,
     radii: Vec<f64>,
-    /// 1/m, 1/m, 1/I of each disk, then 1 for each impulse of a wall.
+    /// 1/m, 1/m, R/I of each disk, then 1 for each impulse of a wall.
     inverse_mass: Vec<f64>,
     /// Weight as a flat force.
     weight: Vec<f64>,
@@ -55,7 +55,10 @@ pub struct MolecularDynamics<I, D> {
     /// The state at the last time that was asked for, if that is no grid point.
     between: Option<State<D>>,
     backup: State<D>,
+    /// Flat: x, y and torque over radius of each disk, then x and y of each wall \[N\].
     force: Vec<f64>,
+    /// Radius times angle of each disk \[m\]. Scratch memory of an evaluation.
+    rims: Vec<f64>,
     neighbours: Neighbours,
     integrator: PhantomData<I>,
 }
@@ -66,8 +69,8 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         let (mut position, mut inverse_mass, mut weight) = (Vec::new(), Vec::new(), Vec::new());
         for (disk, mass) in disks.iter().zip(&setup.masses) {
             position.extend([disk.x, disk.y, 0.0]);
-            let inertia = 0.5 * mass * disk.radius * disk.radius;
-            inverse_mass.extend([1.0 / mass, 1.0 / mass, 1.0 / inertia]);
+            // The moment of inertia is m R^2 / 2, the force that turns one along the surface.
+            inverse_mass.extend([1.0 / mass, 1.0 / mass, 2.0 / (mass * disk.radius)]);
             weight.extend([0.0, -mass * setup.gravity, 0.0]);
         }
         let length = position.len() + 2 * setup.walls.len();
@@ -98,6 +101,7 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         };
         let mut engine = Self {
             setup,
+            rims: vec![0.0; radii.len()],
             radii,
             inverse_mass,
             force: vec![0.0; length],
@@ -298,7 +302,15 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         self.force.copy_from_slice(&self.weight);
         let (on_disks, from_walls) = self.force.split_at_mut(3 * count);
         let (on_disks, _) = on_disks.as_chunks_mut();
-        let bodies = Bodies::new(state.position.as_chunks().0, state.velocity.as_chunks().0, &self.radii);
+        let (places, rates) = (state.position.as_chunks().0, state.velocity.as_chunks().0);
+        if SKIN {
+            let turns = self.radii.iter().zip(places);
+            self.rims
+                .iter_mut()
+                .zip(turns)
+                .for_each(|(rim, (radius, place))| *rim = radius * place[2]);
+        }
+        let bodies = Bodies::new(places, rates, &self.radii, &self.rims);
         let laws = Laws::new(&self.setup.laws, step);
         let walls = &self.setup.walls;
         let mut sums = Sums::default();

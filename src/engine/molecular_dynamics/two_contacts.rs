@@ -51,8 +51,13 @@ pub struct Surfaces {
     pub reach: Two,
     /// Force on the centres over that on the surfaces: the sum of the radii over the distance, and 1 at a wall.
     pub lever: Two,
-    /// Of the first bodies and the second \[m\].
-    pub radii: [Two; 2],
+}
+
+/// Tells u_t \[m/s\] of two surfaces. No closure, since one that is called from a rare branch is not inlined, and all that
+/// it refers to would be stored for it each time.
+pub trait Sliding {
+    /// Relative velocity along the surfaces.
+    fn velocity(&self) -> Two;
 }
 
 /// The contact laws, with what follows from them worked out once an evaluation.
@@ -83,7 +88,7 @@ impl Laws {
     }
 
     /// Normal forces and tangential forces on the first bodies \[N\], zero for those that do not touch, with the skins'
-    /// memory brought up to date. `surface_velocity` tells u_t \[m/s\] of the surfaces, needed at first touch only.
+    /// memory brought up to date. `sliding` is asked at first touch only.
     ///
     /// The formulas are those of [`crate::contact`]. Without SKIN nothing acts along the surfaces, and nothing of them is
     /// read or remembered.
@@ -94,7 +99,7 @@ impl Laws {
         surfaces: &Surfaces,
         skins: [&mut SkinMemory; 2],
         sums: &mut Sums,
-        surface_velocity: impl Fn() -> Two,
+        sliding: impl Sliding,
     ) -> (Two, Two) {
         let Approach {
             normal,
@@ -116,7 +121,7 @@ impl Laws {
         let closed = two(|k| [one.direction[0], other.direction[0]][k]).simd_ne(zero)
             | two(|k| [one.direction[1], other.direction[1]][k]).simd_ne(zero);
         if closed.to_bitmask() != touches.to_bitmask() {
-            let closing = (surfaces.way, surface_velocity());
+            let closing = (surfaces.way, sliding.velocity());
             self.close_or_open(approach, closing, [&mut *one, &mut *other], sums);
         }
         let sine = sine_of_turn(normal, [one, other]);

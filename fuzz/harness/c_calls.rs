@@ -9,7 +9,7 @@ use jostle_c::*;
 
 use super::hand::*;
 
-/// Longest step: what takes little time with every engine. Longer ones are for `tests/abuse.rs`.
+/// Longest step: what takes little time with every engine. Longer ones are for `tests/abuse`.
 const LONGEST_STEP: f64 = 0.05;
 
 /// Work of one call, so that the boundary is tried and not the patience.

@@ -1,5 +1,6 @@
 """`python -m jostle_lab notices`: whose code is linked into what ships, and the notices that must go with it."""
 
+import itertools
 import json
 import re
 import subprocess
@@ -19,10 +20,13 @@ FILE = "LICENSE-THIRD-PARTY.txt"
 STANDARD_LIBRARY = Path(__file__).with_name("notices_of_rust.txt")
 """Kept by hand: the Rust standard library is no package of cargo's."""
 
+SHIPPED = "x86_64-unknown-linux-gnu"
+"""Platform of the command line that `scripts/release` makes."""
+
 PREFERRED = "MIT"
 """Where a crate leaves the choice, this licence is taken: short, and the one that most of them offer."""
 
-HEAD = f"""Notices of the software that jostle's FMUs and its C library hold besides jostle itself.
+HEAD = f"""Notices of the software that {{what}} besides jostle itself.
 
 Written by `python -m jostle_lab notices` from Cargo.lock and the licence files of each crate; not to be edited by
 hand. Where a crate may be had under one of several licences, jostle takes it under {PREFERRED}.
@@ -55,11 +59,21 @@ def notices(root: Path = ROOT) -> str:
     fmus = [name for name, version in own if Path(packages[name, version]["manifest_path"]).parts[-3] == "fmu"]
     in_fmus = linked(_tree(root, fmus)) - own
     in_library = linked(_tree(root, ["jostle-c"])) - own
-    return compose(
-        [_crate(packages[key]) for key in sorted(in_fmus)],
-        [_crate(packages[key]) for key in sorted(in_library - in_fmus)],
-        STANDARD_LIBRARY.read_text(encoding="utf-8"),
-    )
+    lists = {
+        "In the FMUs and in the C library:": [_crate(packages[key]) for key in sorted(in_fmus)],
+        "In the C library alone:": [_crate(packages[key]) for key in sorted(in_library - in_fmus)],
+    }
+    return compose("jostle's FMUs and its C library hold", lists, STANDARD_LIBRARY.read_text(encoding="utf-8"))
+
+
+def notices_of_command_line(root: Path = ROOT) -> str:
+    """The same for the program `jostle`, which is shipped beside the FMUs and holds more than they do."""
+    metadata = json.loads(_cargo(root, "metadata", "--format-version", "1"))
+    packages = {(found["name"], found["version"]): found for found in metadata["packages"]}
+    own = {key for key, found in packages.items() if found["source"] is None}
+    crates = [_crate(packages[key]) for key in sorted(linked(_tree(root, ["jostle"], SHIPPED)) - own)]
+    lists = {"In the command line:": crates}
+    return compose("jostle's command line holds", lists, STANDARD_LIBRARY.read_text(encoding="utf-8"))
 
 
 def linked(tree: str) -> set[tuple[str, str]]:
@@ -67,19 +81,16 @@ def linked(tree: str) -> set[tuple[str, str]]:
     return {(name, version) for name, version in re.findall(r"^(\S+) v(\S+)", tree, re.MULTILINE)}
 
 
-def compose(everywhere: Sequence[Crate], library_only: Sequence[Crate], standard_library: str) -> str:
-    """The text: two lists of crates, then each notice once with the crates that it belongs to."""
+def compose(what: str, lists: dict[str, list[Crate]], standard_library: str) -> str:
+    """The text: lists of crates under their headings, then each notice once with the crates that it belongs to."""
     owners: dict[str, list[str]] = {}
-    for crate in [*everywhere, *library_only]:
+    for crate in itertools.chain.from_iterable(lists.values()):
         for text in texts(crate):
             owners.setdefault(text, []).append(crate.title)
     rule = "-" * 80
     blocks = [f"{rule}\n{', '.join(titles)}\n{rule}\n\n{text}\n" for text, titles in owners.items()]
-    lists = [
-        _list("In the FMUs and in the C library:", everywhere),
-        _list("In the C library alone:", library_only),
-    ]
-    return "\n".join([HEAD, *lists, *blocks, f"{rule}\n{_clean(standard_library)}\n"])
+    tables = [_list(heading, crates) for heading, crates in lists.items()]
+    return "\n".join([HEAD.format(what=what), *tables, *blocks, f"{rule}\n{_clean(standard_library)}\n"])
 
 
 def texts(crate: Crate) -> list[str]:
@@ -99,9 +110,10 @@ def texts(crate: Crate) -> list[str]:
 
 def notices_command(
     out: Annotated[Path, typer.Option(help="File to write.")] = ROOT / FILE,
+    command_line: Annotated[bool, typer.Option("--command-line", help="Those of the program jostle instead.")] = False,
 ) -> None:
     """Write the notices of all crates that are linked into the FMUs and the C library."""
-    out.write_text(notices(), encoding="utf-8")
+    out.write_text(notices_of_command_line() if command_line else notices(), encoding="utf-8")
     typer.echo(out)
 
 
@@ -118,10 +130,10 @@ def _clean(text: str) -> str:
     return "\n".join(line.rstrip() for line in text.strip("\n").splitlines())
 
 
-def _tree(root: Path, packages: Sequence[str]) -> str:
-    """What is linked on any platform: neither build dependencies nor macros that run in the compiler."""
+def _tree(root: Path, packages: Sequence[str], platform: str = "all") -> str:
+    """What is linked on a platform: neither build dependencies nor macros that run in the compiler."""
     chosen = [argument for package in sorted(packages) for argument in ("--package", package)]
-    shown = ["--edges", "normal,no-proc-macro", "--target", "all", "--prefix", "none", "--format", "{p}"]
+    shown = ["--edges", "normal,no-proc-macro", "--target", platform, "--prefix", "none", "--format", "{p}"]
     return _cargo(root, "tree", *chosen, *shown)
 
 

@@ -8,7 +8,7 @@ from zipfile import ZipFile
 import pytest
 from conftest import ROOT
 from jostle_lab.errors import LabError
-from jostle_lab.notices import FILE, Crate, compose, linked, notices, texts
+from jostle_lab.notices import FILE, Crate, compose, linked, notices, notices_of_command_line, texts
 
 KEPT = (ROOT / FILE).read_text(encoding="utf-8")
 RELEASE = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release"
@@ -33,6 +33,13 @@ def test_what_is_linked_is_named_and_nothing_of_the_command_line_is():
     assert re.search(r"^  toml \d", library, re.MULTILINE)
     for name in ("clap", "zip", "serde_derive", "thiserror-impl", "proptest", "jostle"):
         assert not re.search(rf"^  {name} \d", KEPT, re.MULTILINE), name
+
+
+def test_the_command_line_has_its_own():
+    text = notices_of_command_line(ROOT)
+    for name in ("clap", "serde", "toml", "zip"):
+        assert re.search(rf"^  {name} \d", text, re.MULTILINE), name
+    assert not re.search(r"^  (serde_derive|proptest|jostle) \d", text, re.MULTILINE)
 
 
 @pytest.mark.parametrize("library", sorted(RELEASE.glob("libjostle_*.so")), ids=lambda path: path.stem)
@@ -64,7 +71,8 @@ def test_a_crate_without_a_licence_file_is_told(tmp_path: Path):
 
 def test_equal_notices_are_written_once(tmp_path: Path):
     crates = [crate(tmp_path / name, "MIT", LICENSE=f"{MIT}\n") for name in ("a", "b", "c")]
-    text = compose(crates[:2], crates[2:], "of Rust")
+    text = compose("it holds", {"Everywhere:": crates[:2], "In the C library alone:": crates[2:]}, "of Rust")
+    assert text.startswith("Notices of the software that it holds besides jostle itself.")
     assert text.count(MIT) == 1
     assert "\na 1.2.3, b 1.2.3, c 1.2.3\n" in text
     assert text.index("  b 1.2.3") < text.index("C library alone") < text.index("  c 1.2.3")

@@ -7,12 +7,12 @@
 use cpu_time::ProcessTime;
 use std::ffi::CString;
 use std::hint::black_box;
-use std::ptr::null_mut;
+use std::ptr::{null, null_mut};
 use std::sync::Arc;
 
 use jostle::fmi::Version::Three;
 use jostle::fmi::abi::common::{self, Opaque, Status};
-use jostle::fmi::abi::{fmi3, states, values};
+use jostle::fmi::abi::{fmi3, intermediate, states, values};
 use jostle::fmi::{Instance, token, value_reference};
 use jostle::scene::packing::PackingOnInput;
 use jostle::scene::packing::event_driven::HardPackingOnInput;
@@ -44,8 +44,15 @@ impl<S: Scene> Component<S> {
         let text = token::write(&S::card(), choice, &S::variables(choice));
         let text = CString::new(text).expect("no zero byte");
         // SAFETY: the strings outlive the call.
-        let pointer =
-            unsafe { fmi3::instantiate::<S>(c"bench".as_ptr(), text.as_ptr(), 0, (0, 0), 0, (null_mut(), None)) };
+        let pointer = unsafe {
+            fmi3::instantiate::<S>(
+                (c"bench".as_ptr(), text.as_ptr()),
+                0,
+                (0, 0),
+                (null(), 0),
+                (null_mut(), None, None),
+            )
+        };
         assert!(!pointer.is_null(), "the token is right");
         let this = Self {
             pointer,
@@ -63,7 +70,7 @@ impl<S: Scene> Component<S> {
         let (mut flags, mut reached) = ([0_u8; 3], 0.0);
         let flags = flags.each_mut().map(|flag| flag as *mut u8);
         // SAFETY: a living instance and living flags.
-        let status = unsafe { fmi3::do_step::<S>(self.pointer, (current, step), flags, &mut reached) };
+        let status = unsafe { intermediate::do_step::<S>(self.pointer, (current, step), flags, &mut reached) };
         assert_eq!(status, Status::Ok);
     }
 

@@ -10,6 +10,8 @@ mod fmi;
 mod fmi_calls;
 #[path = "../fuzz/harness/hand.rs"]
 mod hand;
+#[path = "../fuzz/harness/lives.rs"]
+mod lives;
 
 mod library {
     pub use fmu_probe::{Probe as Scene, fmi2, fmi3};

@@ -12,6 +12,8 @@ mod fmi;
 mod fmi_calls;
 #[path = "../fuzz/harness/hand.rs"]
 mod hand;
+#[path = "../fuzz/harness/lives.rs"]
+mod lives;
 
 mod library {
     pub use super::any_scene::{AnyScene as Scene, choices, fmi2, fmi3};

@@ -1,7 +1,8 @@
 //! Random calls of all functions of both versions of FMI, on a few instances at once.
 //!
-//! Bytes in, calls out. What is checked beyond what sanitizers see: a call from inside a callback is refused; statuses are
-//! OK, Discard or Error; an instance that a careless caller has ruined is as a new one after a reset.
+//! Bytes in, calls out. What is checked beyond what sanitizers see: a call from inside a callback is refused, but for reading
+//! inside of an intermediate update; statuses are OK, Discard or Error; an instance that a careless caller has ruined is as
+//! a new one after a reset.
 
 use std::cell::Cell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
@@ -9,6 +10,7 @@ use std::ptr::null_mut;
 
 use jostle::fmi::abi::common::{Opaque, Status};
 use jostle::fmi::abi::fmi2::CallbackFunctions;
+use jostle::fmi::abi::fmi3::Boolean;
 use jostle::fmi::token;
 use jostle::scene::{Choice, Scene};
 
@@ -18,6 +20,8 @@ use super::hand::{Hand, count, report_defects};
 pub struct Slot {
     pub pointer: Cell<Opaque>,
     pub three: Cell<bool>,
+    /// What its intermediate updates draw from.
+    pub mood: Cell<u64>,
     callbacks: Cell<*mut CallbackFunctions>,
 }
 
@@ -72,6 +76,7 @@ impl<'a> Importer<'a> {
             Box::new(Slot {
                 pointer: Cell::new(null_mut()),
                 three: Cell::new(false),
+                mood: Cell::new(0),
                 callbacks: Cell::new(null_mut()),
             })
         };
@@ -168,8 +173,47 @@ unsafe fn listen(environment: *mut c_void, category: *const c_char, message: *co
 /// What a callback calls back.
 type CallBack = unsafe fn(&Slot) -> Status;
 
+/// What an intermediate update does with an instance and the time that it was told.
+type LookInside = unsafe fn(&Slot, f64);
+
 thread_local! {
     pub static CALL_BACK: Cell<Option<CallBack>> = const { Cell::new(None) };
+    pub static LOOK_INSIDE: Cell<Option<LookInside>> = const { Cell::new(None) };
+}
+
+/// Looks at an event inside of a step, and may want to end the step, at odd times too.
+pub unsafe extern "C" fn update3(
+    environment: *mut c_void,
+    time: f64,
+    set: Boolean,
+    get: Boolean,
+    finished: Boolean,
+    early: Boolean,
+    wanted: *mut Boolean,
+    until: *mut f64,
+) {
+    // SAFETY: the library passes the environment that it was given, and two values to be written.
+    let (slot, wanted, until) = unsafe { (&*environment.cast::<Slot>(), &mut *wanted, &mut *until) };
+    assert_eq!((set, get, finished, *wanted, *until), (0, 1, 1, 0, time));
+    assert!(time.is_finite() && early <= 1);
+    LOOK_INSIDE.with(|look| {
+        if let Some(look) = look.get() {
+            // SAFETY: the instance is alive, since it calls.
+            unsafe { look(slot, time) };
+        }
+    });
+    let odd = [
+        0.0,
+        time,
+        time.next_up(),
+        time + 1e-4,
+        1e300,
+        -1e300,
+        f64::NAN,
+        f64::INFINITY,
+    ];
+    *until = odd[slot.draw(odd.len())];
+    *wanted = [0, 0, 0, 0, 1, 255][slot.draw(6)];
 }
 
 pub unsafe extern "C" fn log3(environment: *mut c_void, _: c_int, category: *const c_char, message: *const c_char) {
@@ -192,6 +236,13 @@ unsafe extern "C" fn log2(
 }
 
 impl Slot {
+    /// A number below `end`: the bytes of the input are not at hand inside of a call.
+    pub fn draw(&self, end: usize) -> usize {
+        let next = self.mood.get().wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        self.mood.set(next);
+        (next >> 33) as usize % end
+    }
+
     pub fn environment(&self) -> Opaque {
         std::ptr::from_ref(self).cast_mut().cast()
     }

@@ -9,6 +9,8 @@ mod fmi;
 mod fmi_calls;
 #[path = "../harness/hand.rs"]
 mod hand;
+#[path = "../harness/lives.rs"]
+mod lives;
 #[path = "../harness/mutate.rs"]
 mod mutate;
 

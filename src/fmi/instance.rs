@@ -4,6 +4,7 @@
 //! phase brings back the same bits. Not here: pointers, panics and log messages (`abi`), legal phases (`life_cycle`).
 
 mod saving;
+mod stepping;
 mod values;
 
 use std::sync::Arc;
@@ -13,13 +14,10 @@ use super::snapshot::Clock;
 use super::{TOLERANCE, arrays, token};
 use crate::error::{Error, Result};
 use crate::scene::times::check_time;
-use crate::scene::{Causality, Choice, Kind, Reached, Scene, Table, Value, Values};
+use crate::scene::{Causality, Choice, Kind, Scene, Table, Value, Values};
+pub use stepping::Part;
+use stepping::UnderWay;
 pub use values::Access;
-
-/// Importers add up communication points in their own way; as much of a step may differ from ours.
-const POINT_TOLERANCE_OF_STEP: f64 = 1e-6;
-/// As many units in the last place of the time may differ besides.
-const POINT_TOLERANCE_OF_TIME: f64 = 64.0 * f64::EPSILON;
 
 /// What the importer said that it can do when it made the instance (FMI 3.0; in FMI 2.0 nothing of this).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -28,6 +26,13 @@ pub struct Importer {
     pub event_mode: bool,
     /// `earlyReturnAllowed`: a step may end before its end.
     pub early_return: bool,
+}
+
+impl Importer {
+    /// Whether steps end at events, for the importer to handle them in event mode.
+    pub const fn stops_at_events(self) -> bool {
+        self.event_mode && self.early_return
+    }
 }
 
 /// One component.
@@ -43,6 +48,8 @@ pub struct Instance<S: Scene> {
     scene: Option<S>,
     /// A value was set after `scene` was built, so that `scene` has to be built anew. Only before initialisation ends.
     stale: bool,
+    /// A step that goes from event to event, while the importer is told of one.
+    under_way: Option<UnderWay<S::State>>,
 }
 
 impl<S: Scene> Instance<S> {
@@ -84,6 +91,7 @@ impl<S: Scene> Instance<S> {
             values: Values::new(table),
             scene: None,
             stale: false,
+            under_way: None,
         }
     }
 
@@ -219,76 +227,6 @@ impl<S: Scene> Instance<S> {
         Ok(())
     }
 
-    /// Advances from `current` \[s\] by `step` \[s\], or to the first event in between if the importer handles events in
-    /// event mode and lets a step end early. Otherwise events are done with on the way.
-    ///
-    /// # Errors
-    /// [`Error::Step`] if the scene cannot do it; anything else if the arguments are wrong. Time, values and state are
-    /// then as before, and the importer may try again.
-    pub fn do_step(&mut self, current: f64, step: f64) -> Result<Reached> {
-        Call::DoStep.check(self.phase)?;
-        let end = self.end_of_step(current, step)?;
-        let Some(scene) = &mut self.scene else {
-            return Err(Error::call("the scene was never initialised", "Reset the instance."));
-        };
-        let reached = if S::EVENTS && self.importer.event_mode && self.importer.early_return {
-            scene.advance_to_event(end, &self.values)?
-        } else {
-            scene.advance_to(end, &self.values)?;
-            Reached {
-                time: end,
-                event: false,
-            }
-        };
-        let legal = reached.time == end || reached.event && reached.time > self.clock.now && reached.time < end;
-        assert!(legal, "the scene went to {reached:?} where {end} s was asked");
-        scene.write_outputs(self.values.writer());
-        self.clock.now = reached.time;
-        Ok(reached)
-    }
-
-    /// The importer's own sum, so that its next communication point is ours bit for bit.
-    fn end_of_step(&self, current: f64, step: f64) -> Result<f64> {
-        let now = self.clock.now;
-        if !(step.is_finite() && step > 0.0) {
-            return Err(Error::parameter(
-                "communication step size",
-                format!("{step} s"),
-                "finite and greater than 0",
-                "Both standards ask for steps forward in time; read outputs without a step.",
-            ));
-        }
-        let tolerance = POINT_TOLERANCE_OF_STEP * step + POINT_TOLERANCE_OF_TIME * now.abs();
-        let fits = (current - now).abs() <= tolerance;
-        if !fits {
-            return Err(Error::parameter(
-                "current communication point",
-                format!("{current} s"),
-                format!("{now} s within {tolerance:e} s, where the last step ended"),
-                "Steps join without gaps; restore a saved state to go back.",
-            ));
-        }
-        let end = current + step;
-        check_time("end of the step", end)?;
-        if end <= now {
-            return Err(Error::parameter(
-                "communication step size",
-                format!("{step} s"),
-                format!("large enough to move the time {now} s in double precision"),
-                "Take larger steps or start nearer to time zero.",
-            ));
-        }
-        match self.clock.stop {
-            Some(stop) if end > stop + tolerance + POINT_TOLERANCE_OF_TIME * stop.abs() => Err(Error::parameter(
-                "end of the step",
-                format!("{end} s"),
-                format!("not after the stop time {stop} s given at set-up"),
-                "Shorten the step or leave the stop time undefined.",
-            )),
-            _ => Ok(end),
-        }
-    }
-
     /// Ends the simulation.
     ///
     /// # Errors
@@ -299,7 +237,7 @@ impl<S: Scene> Instance<S> {
         Ok(())
     }
 
-    /// Becomes as a new instance, whatever happened before.
+    /// Becomes as a new instance, whatever happened before; a step under way is forgotten.
     pub fn reset(&mut self) {
         let (table, spans) = (Arc::clone(self.values.table()), self.spans.take());
         *self = Self::start(

@@ -33,6 +33,9 @@ pub enum Phase {
     Terminated,
     /// A defect of the scene showed (a panic). Only reading, restoring a state, resetting and freeing are left.
     Failed,
+    /// FMI 3.0 intermediate update mode: inside a step, at an event, while the importer is told. Values may be read. Never
+    /// saved; the last one, since saved states hold the others by their number.
+    IntermediateUpdate,
 }
 
 impl Phase {
@@ -45,6 +48,7 @@ impl Phase {
             Self::Step => "step mode",
             Self::Terminated => "terminated",
             Self::Failed => "failed",
+            Self::IntermediateUpdate => "intermediate update mode",
         }
     }
 }
@@ -70,6 +74,10 @@ pub enum Call {
     Terminate,
     /// Save the state.
     SaveState,
+    /// Go on with a step after an intermediate update.
+    GoOn,
+    /// Anything that is more than reading.
+    Change,
 }
 
 impl Call {
@@ -87,6 +95,15 @@ impl Call {
                 Phase::Step,
                 Phase::Terminated,
             ],
+            Self::GoOn => &[Phase::IntermediateUpdate],
+            Self::Change => &[
+                Phase::Instantiated,
+                Phase::Initialization,
+                Phase::Event,
+                Phase::Step,
+                Phase::Terminated,
+                Phase::Failed,
+            ],
         }
     }
 
@@ -101,6 +118,8 @@ impl Call {
             Self::DoStep => "a step",
             Self::Terminate => "terminating",
             Self::SaveState => "saving the state",
+            Self::GoOn => "going on with a step",
+            Self::Change => "any call but reading values",
         }
     }
 
@@ -115,6 +134,7 @@ impl Call {
         let expected: Vec<_> = self.legal().iter().map(|phase| phase.name()).collect();
         let remedy = match phase {
             Phase::Failed => "Reset the instance, restore a saved state or free it.".into(),
+            Phase::IntermediateUpdate => "Read values only, and return from the callback first.".into(),
             _ => format!("It is legal in: {}.", expected.join(", ")),
         };
         Err(Error::call(

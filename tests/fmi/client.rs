@@ -118,6 +118,16 @@ impl Client {
         }
     }
 
+    /// Of an instance of FMI 3.0 that was made elsewhere, with a log of its own.
+    pub fn of(pointer: Opaque) -> Self {
+        Self {
+            pointer,
+            three: true,
+            log: Box::default(),
+            _callbacks: None,
+        }
+    }
+
     pub fn two() -> Self {
         let log = Box::new(Log::default());
         let callbacks = Box::new(callbacks2(&log));

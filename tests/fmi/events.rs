@@ -162,11 +162,17 @@ fn scenes_without_events_refuse_event_mode_as_their_flags_say() {
     assert!(told.contains("hasEventMode"), "{told}");
     let flags = |component: &Component| {
         let text = component.model_description(Version::Three);
-        ["hasEventMode", "mightReturnEarlyFromDoStep"].map(|flag| text.contains(&format!("{flag}=\"true\"")))
+        [
+            "hasEventMode",
+            "mightReturnEarlyFromDoStep",
+            "providesIntermediateUpdate",
+            "canReturnEarlyAfterIntermediateUpdate",
+        ]
+        .map(|flag| text.contains(&format!("{flag}=\"true\"")))
     };
-    assert_eq!(flags(&component()), [Probe::EVENTS; 2]);
+    assert_eq!(flags(&component()), [Probe::EVENTS; 4]);
     assert_eq!(
         flags(&Component::of::<WedgeMap>(choice).unwrap()),
-        [WedgeMap::EVENTS; 2]
+        [WedgeMap::EVENTS; 4]
     );
 }

@@ -1,7 +1,7 @@
 """The disk on two supports through fmpy: events where they are asked for, inputs held and interpolated."""
 
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -45,9 +45,12 @@ def test_events_end_steps_where_the_importer_wants_it_and_change_nothing(tmp_pat
 
 @contextmanager
 def ready(
-    fmu: str, folder: Path, settings: dict[str, float], *, event_mode: bool
+    fmu: str, folder: Path, settings: dict[str, float], *, event_mode: bool, update: Callable[..., None] | None = None
 ) -> Iterator[tuple[Any, dict[str, int]]]:
-    """An initialised instance of FMI 3.0 by direct calls of fmpy, in event mode if that is used, and its references."""
+    """An initialised instance of FMI 3.0 by direct calls of fmpy, in event mode if that is used, and its references.
+
+    With `update` it is called at intermediate updates and may return early.
+    """
     description = read_model_description(fmu)
     references = {variable.name: variable.valueReference for variable in description.modelVariables}
     slave = FMU3Slave(
@@ -56,7 +59,12 @@ def ready(
         modelIdentifier=description.coSimulation.modelIdentifier,
         instanceName="disk",
     )
-    slave.instantiate(eventModeUsed=event_mode, earlyReturnAllowed=event_mode)
+    slave.instantiate(
+        eventModeUsed=event_mode,
+        earlyReturnAllowed=event_mode or update is not None,
+        intermediateUpdate=update,
+        requiredIntermediateVariables=[references[name] for name in STATES] if update else None,
+    )
     slave.setFloat64([references[name] for name in settings], list(settings.values()))
     slave.enterInitializationMode()
     slave.exitInitializationMode()
@@ -101,6 +109,43 @@ def test_early_return_event_mode_and_on_by_direct_calls(tmp_path: Path) -> None:
         assert slave.getFloat64(observed) == plain
         assert slave.getInt32([references["slips"]]) == slips
     assert early_returns >= changes >= slips[0] > 3
+
+
+def test_intermediate_updates_tell_the_events_of_one_long_step(tmp_path: Path) -> None:
+    """Times and values are those at which event mode ends steps; the step ends early when that is asked for."""
+    fmu = bundle(tmp_path, 3, "harmonic-torque")
+    expected: list[tuple[float, list[float], list[int]]] = []
+    with ready(fmu, tmp_path / "events", SLIPPING, event_mode=True) as (slave, references):
+        observed, states = ([references[name] for name in names] for names in (MOTION, STATES))
+        handle_event(slave)
+        time = 0.0
+        while time < 0.25:
+            event, _, _, time = slave.doStep(time, 0.25 - time)
+            if event:
+                expected.append((time, slave.getFloat64(observed), slave.getInt64(states)))
+                slave.enterEventMode()
+                handle_event(slave)
+        end = slave.getFloat64(observed)
+    told: list[tuple[float, list[float], list[int]]] = []
+    flags: set[tuple[bool, ...]] = set()
+    stop_after = len(expected) // 2
+
+    def update(_: Any, time: float, *rest: Any) -> None:
+        flags.add(tuple(rest[:4]))
+        told.append((time, instance.getFloat64(observed), instance.getInt64(states)))
+        if len(told) == stop_after:
+            wanted, until = rest[4:]
+            wanted[0], until[0] = True, time
+
+    with ready(fmu, tmp_path / "told", SLIPPING, event_mode=False, update=update) as (instance, _):
+        event, terminate, early, reached = instance.doStep(0.0, 0.25)
+        assert (event, terminate, early, reached) == (False, False, True, expected[stop_after - 1][0])
+        assert instance.getFloat64(observed) == expected[stop_after - 1][1]
+        assert instance.doStep(reached, 0.25 - reached) == (False, False, False, 0.25)
+        assert instance.getFloat64(observed) == end
+    assert told == expected
+    assert len(told) > 6
+    assert flags == {(False, True, True, True)}
 
 
 @pytest.mark.parametrize("version", [2, 3])

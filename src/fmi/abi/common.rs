@@ -6,6 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::null_mut;
 
 use super::handle::{self, describe};
+use super::intermediate::Listener;
 use super::logger::{Category, Logger};
 use super::memory;
 use super::states::Saved;
@@ -49,6 +50,8 @@ pub struct Inner<S: Scene> {
     /// Communication point and step size that were refused last.
     refused: Option<(f64, f64)>,
     version: Version,
+    /// Whom to tell of events inside of a step.
+    pub(super) listener: Option<Listener>,
     /// What it saved, under the numbers that the importer holds.
     pub(super) states: HashMap<usize, Saved<S>>,
 }
@@ -58,10 +61,10 @@ pub fn instantiate<S: Scene>(
     version: Version,
     function: &str,
     mut logger: Logger,
-    make: impl FnOnce() -> Result<Instance<S>>,
+    make: impl FnOnce() -> Result<(Instance<S>, Option<Listener>)>,
 ) -> Opaque {
     match catch_unwind(AssertUnwindSafe(make)) {
-        Ok(Ok(instance)) => {
+        Ok(Ok((instance, listener))) => {
             logger.log(
                 Status::Ok,
                 Category::Events,
@@ -73,6 +76,7 @@ pub fn instantiate<S: Scene>(
                 last_step: Status::Ok,
                 refused: None,
                 version,
+                listener,
                 states: HashMap::new(),
             };
             Handle::<S>::hand_out(inner).cast()
@@ -89,20 +93,44 @@ pub fn instantiate<S: Scene>(
 }
 
 /// Frees an instance with all its states. Null is ignored, as both standards ask, and so is an instance of the other version
-/// or one that is at work, such as from inside a callback of this very instance.
+/// or one that is at work, such as from inside a callback of this very instance or while it tells of an intermediate update.
 ///
 /// # Safety
 /// `pointer` is null or an instance of this library that was not freed before.
 pub unsafe fn free<S: Scene>(pointer: Opaque, version: Version) {
     // SAFETY: by the caller's promise.
-    let _ = unsafe { Handle::<S>::free(pointer.cast(), |inner| inner.version == version) };
+    let _ = unsafe {
+        Handle::<S>::free(pointer.cast(), |inner| {
+            inner.version == version && !inner.instance.is_stepping()
+        })
+    };
 }
 
-/// The way into an instance: checks the pointer, keeps others out, catches panics, logs what went wrong.
+/// The way into an instance: checks the pointer, keeps others out, catches panics, logs what went wrong. Shut inside of an
+/// intermediate update.
 ///
 /// # Safety
 /// `pointer` is null or an instance of this library that was not freed.
 pub unsafe fn enter<S: Scene>(
+    pointer: Opaque,
+    version: Version,
+    function: &str,
+    work: impl FnOnce(&mut Inner<S>) -> Result<()>,
+) -> Status {
+    // SAFETY: passed on.
+    unsafe {
+        enter_to_read::<S>(pointer, version, function, |inner| {
+            inner.instance.check_change()?;
+            work(inner)
+        })
+    }
+}
+
+/// The way in for who only reads values, which is allowed inside of an intermediate update.
+///
+/// # Safety
+/// As for [`enter`].
+pub unsafe fn enter_to_read<S: Scene>(
     pointer: Opaque,
     version: Version,
     function: &str,
@@ -114,6 +142,20 @@ pub unsafe fn enter<S: Scene>(
     };
     // SAFETY: by the caller's promise.
     unsafe { Handle::<S>::enter(pointer.cast_const().cast(), run) }.unwrap_or(Status::Error)
+}
+
+/// The way back in for a step that was left for an intermediate update.
+///
+/// # Safety
+/// As for [`enter`].
+pub unsafe fn come_back<S: Scene>(
+    pointer: Opaque,
+    function: &str,
+    work: impl FnOnce(&mut Inner<S>) -> Result<()>,
+) -> Status {
+    let run = |inner: &mut Inner<S>| inner.run(function, work);
+    // SAFETY: by the caller's promise.
+    unsafe { Handle::<S>::come_back(pointer.cast_const().cast(), run) }.unwrap_or(Status::Error)
 }
 
 impl<S: Scene> Inner<S> {
@@ -147,13 +189,22 @@ impl<S: Scene> Inner<S> {
     /// # Errors
     /// As [`Instance::do_step`], with [`Error::Call`] in the place of a repeated [`Error::Step`].
     pub fn do_step(&mut self, current: f64, step: f64) -> Result<Reached> {
-        let done = self.instance.do_step(current, step).map_err(|error| match error {
+        let done = self.instance.do_step(current, step);
+        self.note((current, step), done)
+    }
+
+    /// Notes how the step from `asked.0` by `asked.1` ended, and turns a repeated refusal into an error.
+    ///
+    /// # Errors
+    /// As [`Inner::do_step`].
+    pub(super) fn note<T>(&mut self, asked: (f64, f64), done: Result<T>) -> Result<T> {
+        let done = done.map_err(|error| match error {
             Error::Step {
                 scene,
                 time,
                 what,
                 remedy,
-            } if self.refused == Some((current, step)) => Error::call(
+            } if self.refused == Some(asked) => Error::call(
                 format!("{scene}: the same step refused again at t = {time} s: {what}"),
                 remedy,
             ),
@@ -166,7 +217,7 @@ impl<S: Scene> Inner<S> {
         };
         match self.last_step {
             Status::Ok => self.refused = None,
-            Status::Discard => self.refused = Some((current, step)),
+            Status::Discard => self.refused = Some(asked),
             _ => {}
         }
         done
@@ -266,7 +317,7 @@ pub unsafe fn unsupported<S: Scene>(pointer: Opaque, version: Version, function:
 pub unsafe fn no_such_type<S: Scene>(pointer: Opaque, version: Version, function: &str, count: usize) -> Status {
     // SAFETY: passed on.
     unsafe {
-        enter::<S>(pointer, version, function, |_| match count {
+        enter_to_read::<S>(pointer, version, function, |_| match count {
             0 => Ok(()),
             _ => Err(Error::call(
                 "no variable is of this type",

@@ -20,7 +20,7 @@ macro_rules! export_fmi3 {
                 NO_DEPENDENCIES, NO_DERIVATIVES, NO_MODEL_EXCHANGE, Preemption,
             };
             use $crate::fmi::abi::logger::Fmi3Log;
-            use $crate::fmi::abi::{states, values};
+            use $crate::fmi::abi::{intermediate, states, values};
             use $crate::fmi::instance::Access;
 
             $crate::__fmi_functions! {
@@ -44,8 +44,8 @@ macro_rules! export_fmi3 {
                     log: Option<Fmi3Log>, intermediate_update: Option<IntermediateUpdate>,
                 ) -> Opaque =
                     fmi3::instantiate::<$scene>(
-                        name, token, logging_on, (event_mode_used, early_return_allowed), required_count,
-                        (environment, log)
+                        (name, token), logging_on, (event_mode_used, early_return_allowed),
+                        (required_intermediate_variables, required_count), (environment, log, intermediate_update)
                     );
                 fn fmi3InstantiateScheduledExecution(
                     name: *const c_char, token: *const c_char, resource_path: *const c_char, visible: Boolean,
@@ -332,7 +332,7 @@ macro_rules! export_fmi3 {
                     terminate_simulation: *mut Boolean, early_return: *mut Boolean,
                     last_successful_time: *mut f64,
                 ) -> Status =
-                    fmi3::do_step::<$scene>(
+                    intermediate::do_step::<$scene>(
                         pointer, (current, step), [event_handling_needed, terminate_simulation, early_return],
                         last_successful_time
                     );

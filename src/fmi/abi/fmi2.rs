@@ -73,7 +73,7 @@ pub unsafe fn instantiate<S: Scene>(
         }
         // SAFETY: by the caller's promise.
         let guid = unsafe { memory::text(guid, "fmuGUID") }?;
-        Instance::<S>::new(&guid, Importer::default())
+        Ok((Instance::<S>::new(&guid, Importer::default())?, None))
     })
 }
 

@@ -6,16 +6,17 @@
 use std::ffi::{c_char, c_int};
 
 use super::common::{self, Opaque, Status, enter};
+use super::intermediate::Listener;
 use super::logger::{Callback, Fmi3Log, Logger};
 use super::memory;
-use crate::error::Error;
+use crate::error::{Error, Result};
 use crate::fmi::instance::{Importer, Instance};
 use crate::fmi::life_cycle::Version::Three;
 use crate::scene::Scene;
 
 /// `fmi3Boolean` and `fmi3Clock`.
 pub type Boolean = u8;
-/// `fmi3IntermediateUpdateCallback`, never called.
+/// `fmi3IntermediateUpdateCallback`, called at events inside of a step.
 pub type IntermediateUpdate =
     unsafe extern "C" fn(Opaque, f64, Boolean, Boolean, Boolean, Boolean, *mut Boolean, *mut f64);
 /// `fmi3ClockUpdateCallback`, never called.
@@ -34,20 +35,19 @@ pub const NO_CONFIGURATION: &str = "there are no structural parameters, so there
 /// Why clocks are refused.
 pub const NO_CLOCKS: &str = "there are no clocks and no scheduled execution";
 
-const FALSE: Boolean = 0;
-const TRUE: Boolean = 1;
+pub(super) const FALSE: Boolean = 0;
+pub(super) const TRUE: Boolean = 1;
 
 /// `fmi3InstantiateCoSimulation`.
 ///
 /// # Safety
-/// Strings are null or zero-terminated.
+/// Strings are null or zero-terminated; `required.0` is null or has `required.1` elements.
 pub unsafe fn instantiate<S: Scene>(
-    name: *const c_char,
-    token: *const c_char,
+    (name, token): (*const c_char, *const c_char),
     logging_on: Boolean,
     (event_mode_used, early_return_allowed): (Boolean, Boolean),
-    required_intermediate: usize,
-    (environment, log): (Opaque, Option<Fmi3Log>),
+    required: (*const u32, usize),
+    (environment, log, intermediate_update): (Opaque, Option<Fmi3Log>, Option<IntermediateUpdate>),
 ) -> Opaque {
     let logger = Logger::new(Callback::Three { log, environment }, logging_on != FALSE);
     common::instantiate(Three, "fmi3InstantiateCoSimulation", logger, || {
@@ -61,18 +61,55 @@ pub unsafe fn instantiate<S: Scene>(
         if name.is_empty() {
             return Err(Error::call("instanceName is empty", "Name the instance."));
         }
-        if required_intermediate > 0 {
-            return Err(Error::call(
-                "intermediate update is not offered (providesIntermediateUpdate = false)",
-                "Pass nRequiredIntermediateVariables = 0.",
-            ));
-        }
         let importer = Importer {
             event_mode: event_mode_used != FALSE,
             early_return: early_return_allowed != FALSE,
         };
-        Instance::<S>::new(&token, importer)
+        let instance = Instance::<S>::new(&token, importer)?;
+        // SAFETY: by the caller's promise.
+        let required = unsafe { memory::slice(required.0, required.1, "requiredIntermediateVariables") }?;
+        check_required(&instance, required, intermediate_update.is_some())?;
+        let listens = S::EVENTS && !importer.stops_at_events();
+        let listener = intermediate_update
+            .filter(|_| listens)
+            .map(|update| Listener::new(update, environment, importer.early_return));
+        Ok((instance, listener))
     })
+}
+
+/// Whether the variables can be given that an importer wants in intermediate updates.
+fn check_required<S: Scene>(instance: &Instance<S>, required: &[u32], listens: bool) -> Result<()> {
+    if required.is_empty() {
+        return Ok(());
+    }
+    let variables = required.len();
+    if !S::EVENTS {
+        return Err(Error::call(
+            format!(
+                "{variables} intermediate variables are required, but intermediate update is not offered (providesIntermediateUpdate = false)"
+            ),
+            "Pass nRequiredIntermediateVariables = 0.",
+        ));
+    }
+    if !listens {
+        return Err(Error::call(
+            format!("{variables} intermediate variables are required, but intermediateUpdate is null"),
+            "Pass a callback, or nRequiredIntermediateVariables = 0.",
+        ));
+    }
+    let unknown: Vec<u32> = required
+        .iter()
+        .copied()
+        .filter(|reference| !instance.knows(*reference))
+        .take(10)
+        .collect();
+    match unknown.is_empty() {
+        true => Ok(()),
+        false => Err(Error::call(
+            format!("requiredIntermediateVariables has unknown value references: {unknown:?}"),
+            "Take the value references from modelDescription.xml.",
+        )),
+    }
 }
 
 /// `fmi3InstantiateModelExchange` and `fmi3InstantiateScheduledExecution`: null with a message.
@@ -123,37 +160,6 @@ pub unsafe fn update_discrete_states<S: Scene>(
                 memory::write(flag, FALSE, name)?;
             }
             memory::write(next_event_time, 0.0, "nextEventTime")
-        })
-    }
-}
-
-/// `fmi3DoStep`.
-///
-/// # Safety
-/// As for [`enter`]; the pointers are null or may be written.
-pub unsafe fn do_step<S: Scene>(
-    pointer: Opaque,
-    (current, step): (f64, f64),
-    [event_handling_needed, terminate_simulation, early_return]: [*mut Boolean; 3],
-    last_successful_time: *mut f64,
-) -> Status {
-    // SAFETY: passed on.
-    unsafe {
-        enter::<S>(pointer, Three, "fmi3DoStep", |inner| {
-            // Written before the step, so that a bad pointer cannot hide a step that was done.
-            memory::write(event_handling_needed, FALSE, "eventHandlingNeeded")?;
-            memory::write(terminate_simulation, FALSE, "terminateSimulation")?;
-            memory::write(early_return, FALSE, "earlyReturn")?;
-            memory::write(last_successful_time, inner.instance.time(), "lastSuccessfulTime")?;
-            let reached = inner.do_step(current, step)?;
-            memory::write(last_successful_time, reached.time, "lastSuccessfulTime")?;
-            if reached.event {
-                memory::write(event_handling_needed, TRUE, "eventHandlingNeeded")?;
-            }
-            if reached.time < current + step {
-                memory::write(early_return, TRUE, "earlyReturn")?;
-            }
-            Ok(())
         })
     }
 }

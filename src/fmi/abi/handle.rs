@@ -1,8 +1,8 @@
 //! What a pointer in a caller's hands points to, for FMI and for the C library alike.
 //!
 //! A word at its beginning tells it from other memory, from a handle of another kind and, as far as that can be, from one
-//! that was freed. A lock lends its content to one call at a time: it refuses and never waits, since the call that is in
-//! its way may be the caller's own, further up the stack.
+//! that was freed. A lock lends its content to one call at a time: it refuses and does not wait, since the call that is in
+//! its way may be the caller's own, further up the stack. Only a call that left and comes back waits.
 //!
 //! Needs: a pointer that is null, leads to memory that may be read, or was handed out and not freed. Guarantees: nothing
 //! behind the word is touched unless the word is right; no two calls hold the content at once; a panic leaves it unlocked.
@@ -69,6 +69,27 @@ impl<T, const WORD: u64> Handle<T, WORD> {
         let handle = unsafe { Self::alive(pointer) }?;
         let _lock = Lock::take(&handle.busy)?;
         // SAFETY: the lock was taken, so this is the only reference to the content until the lock goes, after `work`.
+        Ok(work(unsafe { &mut *handle.content.get() }))
+    }
+
+    /// The way back in for a call that let go of the content in its midst. Whoever is inside now is on another thread, since
+    /// all that the caller did meanwhile has returned: it is waited for.
+    ///
+    /// # Safety
+    /// As for [`Handle::enter`].
+    ///
+    /// # Errors
+    /// No handle; nothing has been done.
+    pub unsafe fn come_back<R>(pointer: *const Self, work: impl FnOnce(&mut T) -> R) -> Result<R, Barred> {
+        // SAFETY: by the caller's promise.
+        let handle = unsafe { Self::alive(pointer) }?;
+        let _lock = loop {
+            match Lock::take(&handle.busy) {
+                Ok(lock) => break lock,
+                Err(_) => std::thread::yield_now(),
+            }
+        };
+        // SAFETY: as in `enter`.
         Ok(work(unsafe { &mut *handle.content.get() }))
     }
 
@@ -226,6 +247,29 @@ mod tests {
             }
         });
         assert_eq!(increase(shared.0), Ok(done.into_inner() + 1));
+        assert_eq!(free(shared.0), Ok(()));
+    }
+
+    #[test]
+    fn who_comes_back_waits() {
+        struct Shared(*mut Counter);
+        unsafe impl Sync for Shared {}
+        let (shared, inside) = (Shared(Counter::hand_out(0)), AtomicBool::new(false));
+        std::thread::scope(|scope| {
+            let (shared, inside) = (&shared, &inside);
+            scope.spawn(move || unsafe {
+                Counter::enter(shared.0, |count| {
+                    inside.store(true, Ordering::Release);
+                    std::thread::sleep(std::time::Duration::from_millis(20));
+                    *count = 7;
+                })
+            });
+            while !inside.load(Ordering::Acquire) {
+                std::thread::yield_now();
+            }
+            assert_eq!(unsafe { Counter::come_back(shared.0, |count| *count) }, Ok(7));
+        });
+        assert_eq!(unsafe { Counter::come_back(null(), |_| ()) }, Err(Barred::NoHandle));
         assert_eq!(free(shared.0), Ok(()));
     }
 

@@ -12,6 +12,7 @@ pub mod fmi3;
 pub mod handle;
 #[cfg(feature = "command-line")]
 pub mod importer;
+pub mod intermediate;
 pub mod logger;
 pub mod memory;
 pub mod states;

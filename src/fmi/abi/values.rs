@@ -1,6 +1,6 @@
 //! Values of variables: getters and setters of every type, alike in both versions but for the names of the functions.
 
-use super::common::{Inner, Opaque, Status, enter};
+use super::common::{Inner, Opaque, Status, enter, enter_to_read};
 use super::memory;
 use crate::error::{Error, Result};
 use crate::fmi::instance::{Access, Instance};
@@ -22,7 +22,7 @@ pub unsafe fn get_real<S: Scene>(
 ) -> Status {
     // SAFETY: passed on.
     unsafe {
-        enter::<S>(pointer, version, function, |inner| {
+        enter_to_read::<S>(pointer, version, function, |inner| {
             inner.get(arrays, Access::Real, real)
         })
     }
@@ -40,7 +40,7 @@ pub unsafe fn get_whole<S: Scene, T: TryFrom<i64>>(
     access: Access,
 ) -> Status {
     // SAFETY: passed on.
-    unsafe { enter::<S>(pointer, version, function, |inner| inner.get(arrays, access, whole)) }
+    unsafe { enter_to_read::<S>(pointer, version, function, |inner| inner.get(arrays, access, whole)) }
 }
 
 /// `fmi2SetReal`, `fmi3SetFloat64`.
@@ -93,7 +93,7 @@ pub unsafe fn get_output_derivatives<S: Scene>(
 ) -> Status {
     // SAFETY: passed on.
     unsafe {
-        enter::<S>(pointer, version, function, |inner| {
+        enter_to_read::<S>(pointer, version, function, |inner| {
             let orders = memory::slice(orders, arrays.1, "the array of orders")?;
             inner.fill(arrays, |instance, number, reference, offset| {
                 instance.output_derivative(reference, offset, orders[number])

@@ -25,11 +25,16 @@ impl<S: Scene> Instance<S> {
         })
     }
 
-    /// Goes back (or on) to a saved state, in any phase.
+    /// Goes back (or on) to a saved state, in any phase but inside a step.
     ///
     /// # Errors
-    /// The state does not fit this instance, which is then as before.
+    /// Inside a step, or the state does not fit this instance, which is then as before.
     pub fn restore(&mut self, snapshot: &Snapshot<S::State>) -> Result<()> {
+        self.check_change()?;
+        self.bring_back(snapshot)
+    }
+
+    pub(super) fn bring_back(&mut self, snapshot: &Snapshot<S::State>) -> Result<()> {
         self.check(snapshot)?;
         let mut values = self.values.clone();
         values.put_back(&snapshot.values)?;
@@ -76,7 +81,7 @@ impl<S: Scene> Instance<S> {
             Phase::Instantiated | Phase::Initialization => true,
             Phase::Event => self.importer.event_mode && snapshot.scene.is_some(),
             Phase::Step | Phase::Terminated => snapshot.scene.is_some(),
-            Phase::Failed => false,
+            Phase::Failed | Phase::IntermediateUpdate => false,
         };
         // A scene elsewhere in time would find events before the communication point, or work off the difference.
         let together = snapshot.scene.as_ref().is_none_or(|state| S::time_of(state) == now);
@@ -115,6 +120,11 @@ mod tests {
             let told = instance.restore(&moved).unwrap_err().to_string();
             assert!(told.contains("times are impossible"), "{told}");
         }
+        let mut inside = saved.clone();
+        inside.phase = Phase::IntermediateUpdate;
+        assert!(instance.restore(&inside).is_err(), "nobody saves inside of a step");
+        let bytes = inside.to_bytes(&token).unwrap();
+        assert!(instance.read_snapshot(&bytes).is_err());
         assert_eq!(instance.save().unwrap(), saved);
     }
 }

@@ -42,6 +42,13 @@ impl<S: Scene> Instance<S> {
         span.copied().unwrap_or(1).max(1)
     }
 
+    /// Whether a variable is behind `reference`.
+    pub fn knows(&self, reference: u32) -> bool {
+        let position = (reference as usize).wrapping_sub(1);
+        let inside = self.spans.as_ref().and_then(|spans| spans.get(position)) == Some(&0);
+        reference == TIME_REFERENCE || position < self.values.table().rows().len() && !inside
+    }
+
     /// Value behind `reference`; of an array the first element.
     ///
     /// # Errors

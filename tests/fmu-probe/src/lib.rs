@@ -155,7 +155,8 @@ impl Scene for Probe {
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        self.check(end_time)?;
+        self.check_faults(end_time)?;
+        self.check_work(end_time)?;
         while self.next_point() <= latest(end_time) {
             self.step(values);
         }
@@ -164,7 +165,8 @@ impl Scene for Probe {
     }
 
     fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
-        self.check(end_time)?;
+        self.check_work(end_time)?;
+        let before_all = self.state.clone();
         let (from, mut event, mut time) = (self.state.time, false, end_time);
         while !event && self.next_point() <= latest(end_time) {
             time = self.next_point().min(end_time);
@@ -174,6 +176,8 @@ impl Scene for Probe {
             event = time > from && (before < 0.0) != (self.state.displacements[0] < 0.0);
         }
         let time = if event { time } else { end_time };
+        // Faults show where they are, so that events before them are met.
+        self.check_faults(time).inspect_err(|_| self.state = before_all)?;
         self.state.time = time;
         Ok(Reached { time, event })
     }
@@ -214,7 +218,7 @@ fn latest(end_time: f64) -> f64 {
 }
 
 impl Probe {
-    fn check(&self, end_time: f64) -> Result<()> {
+    fn check_faults(&self, end_time: f64) -> Result<()> {
         if end_time > self.refuse_time {
             return Err(Error::Step {
                 scene: "probe",
@@ -224,6 +228,10 @@ impl Probe {
             });
         }
         assert!(end_time <= self.panic_time, "told to panic at {} s", self.panic_time);
+        Ok(())
+    }
+
+    fn check_work(&self, end_time: f64) -> Result<()> {
         let now = self.start + self.state.steps as f64 * TIME_STEP;
         let asked = (end_time - now) / TIME_STEP;
         if asked > MOST_STEPS {

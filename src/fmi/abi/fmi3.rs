@@ -85,9 +85,7 @@ fn check_required<S: Scene>(instance: &Instance<S>, required: &[u32], listens: b
     let variables = required.len();
     if !S::EVENTS {
         return Err(Error::call(
-            format!(
-                "{variables} intermediate variables are required, but intermediate update is not offered (providesIntermediateUpdate = false)"
-            ),
+            format!("{variables} intermediate variables are required, but providesIntermediateUpdate = false"),
             "Pass nRequiredIntermediateVariables = 0.",
         ));
     }

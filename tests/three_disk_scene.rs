@@ -73,6 +73,29 @@ fn any_way_there_gives_the_same_bits<E: ThreeDiskDrive>(more: &[(&str, Value)]) 
     assert!(i64::from(events) >= slips, "{events} events, {slips} slips");
 }
 
+/// An importer that is told of events within a step gives its inputs at the beginning alone: the torque goes on at its rate,
+/// and what is told of the step at its end is what a step without events tells.
+#[test]
+fn a_step_told_of_by_events_is_one_step() {
+    let inputs = [("torque", (-0.14).into()), ("torque.rate", 1.5.into())];
+    let spin = ("disk.initial_angular_velocity", 1.0.into());
+    let (given, mut once) = busy::<ThreeDiskOnInput>(&[inputs[0], inputs[1], spin]);
+    let (_, mut told) = busy::<ThreeDiskOnInput>(&[inputs[0], inputs[1], spin]);
+    let mut events = 0;
+    for step in 1..=10 {
+        let end = 0.03 * f64::from(step);
+        once.advance_to(end, &given).unwrap();
+        let mut reached = told.advance_to_event(end, &given).unwrap();
+        while reached.time < end {
+            events += 1;
+            reached = told.go_on_to_event(end, &given).unwrap();
+        }
+        assert!(told.state() == once.state(), "at {end} s");
+        assert_eq!(outputs_of(&told, &given), outputs_of(&once, &given));
+    }
+    assert!(events > 2, "{events} events");
+}
+
 #[test]
 fn ways_under_a_held_torque() {
     any_way_there_gives_the_same_bits::<jostle::drive::excitation::HeldTorque>(&[

@@ -94,6 +94,12 @@ macro_rules! scenes {
                 }
             }
 
+            fn go_on_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+                match self {
+                    $(Self::$name(scene) => scene.go_on_to_event(end_time, values),)*
+                }
+            }
+
             fn write_outputs(&self, outputs: OutputWriter<'_>) {
                 match self {
                     $(Self::$name(scene) => scene.write_outputs(outputs),)*

@@ -144,6 +144,15 @@ pub trait Scene: Sized + Send + 'static {
         })
     }
 
+    /// Goes on with a step that [`Scene::advance_to_event`] left at an event: inputs that have a course go on along it, and
+    /// what is told of a step is told from its beginning. The inputs among `values` are those of the beginning.
+    ///
+    /// # Errors
+    /// As [`Scene::advance_to`].
+    fn go_on_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        self.advance_to_event(end_time, values)
+    }
+
     /// Lets one call of [`Scene::advance_to`] do no more than so much, instead of [`crate::engine::MOST_WORK_IN_A_CALL`].
     /// It holds for this value of the scene, and is no part of its state. A scene whose calls take the same time whatever
     /// is asked of them has nothing to limit.

@@ -45,7 +45,18 @@ pub struct ThreeDisk<E> {
     energy: f64,
     /// Work that one call may do.
     most_work: u64,
+    begun: Begun,
     report: Report,
+}
+
+/// Where the communication step began that is under way or was last. No part of the state: no step is under way when one is
+/// saved.
+#[derive(Debug, Clone, Copy)]
+struct Begun {
+    /// \[s\]
+    time: f64,
+    /// Vertical velocity of the disk then \[m/s\].
+    upward: f64,
 }
 
 /// What the last communication step reported, and what is taken since measure.start.
@@ -122,15 +133,20 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
         }
     }
 
+    /// A step, or its beginning.
     fn go(&mut self, end_time: f64, values: &Values, stop: bool) -> Result<Reached> {
-        let from = self.report.time;
-        let time_steps = (end_time - from) / self.engine.setup().time_step;
-        if !Work::at_most(self.most_work).spend((time_steps * WORK_OF_STEP) as u64) {
-            return Err(Error::too_much_work(NAME, from, format!("{time_steps:e} time steps")));
-        }
-        let backup = self.state();
-        let upward = self.engine.state().now.disk[4];
+        self.check_work(end_time)?;
+        let (backup, from) = (self.state(), self.report.time);
+        self.begun = Begun {
+            time: from,
+            upward: self.engine.state().now.disk[4],
+        };
         self.engine.steer(|excitation| excitation.aim(from, values));
+        self.go_on(end_time, stop, backup)
+    }
+
+    /// Goes on under the drive as it is aimed; back to `backup` if that cannot be done.
+    fn go_on(&mut self, end_time: f64, stop: bool, backup: ThreeDiskState<E>) -> Result<Reached> {
         let checked = |scene: &mut Self| {
             let reached = scene.run(end_time, stop)?;
             scene.check(reached.time).map(|()| reached)
@@ -143,14 +159,24 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
                 return Err(error);
             }
         };
-        let (now, setup) = (&self.engine.state().now, self.engine.setup());
+        let Begun { time, upward } = self.begun;
         // A step of one bit tells of the second of two contacts: the disk has not gone on, and the mean is that before.
-        if reached.time > from.next_up() {
-            let gained = (now.disk[4] - upward) / (reached.time - from);
+        if reached.time > time.next_up() {
+            let (now, setup) = (&self.engine.state().now, self.engine.setup());
+            let gained = (now.disk[4] - upward) / (reached.time - time);
             self.report.reaction_force = -setup.mass * (gained + setup.gravity);
         }
         self.report.time = reached.time;
         Ok(reached)
+    }
+
+    fn check_work(&self, end_time: f64) -> Result<()> {
+        let from = self.report.time;
+        let time_steps = (end_time - from) / self.engine.setup().time_step;
+        match Work::at_most(self.most_work).spend((time_steps * WORK_OF_STEP) as u64) {
+            true => Ok(()),
+            false => Err(Error::too_much_work(NAME, from, format!("{time_steps:e} time steps"))),
+        }
     }
 
     /// Whether the disk, its energies and its forces are finite and far from overflow.
@@ -250,6 +276,10 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
             engine,
             energy: kinetic + potential + elastic,
             most_work: MOST_WORK_IN_A_CALL,
+            begun: Begun {
+                time: start_time,
+                upward: 0.0,
+            },
             report: Report {
                 time: start_time,
                 reaction_force: 0.0,
@@ -271,6 +301,12 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
 
     fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
         self.go(end_time, values, true)
+    }
+
+    fn go_on_to_event(&mut self, end_time: f64, _values: &Values) -> Result<Reached> {
+        self.check_work(end_time)?;
+        let backup = self.state();
+        self.go_on(end_time, true, backup)
     }
 
     fn write_outputs(&self, outputs: OutputWriter<'_>) {

@@ -148,6 +148,25 @@ def test_intermediate_updates_tell_the_events_of_one_long_step(tmp_path: Path) -
     assert flags == {(False, True, True, True)}
 
 
+def test_a_torque_goes_on_at_its_rate_through_intermediate_updates(tmp_path: Path) -> None:
+    """Inputs are given at the beginning of the step: who is told of what happens inside gets the same end."""
+    fmu = bundle(tmp_path, 3, "input")
+    settings = {"tilt": 0.2, "contact.stiffness_ratio": 30.0, "disk.initial_angular_velocity": 1.0}
+    inputs = {"torque": -0.14, "torque.rate": 1.5}
+    observed = [*MOTION, "base.reaction_force"]
+    told: list[float] = []
+    ends = []
+    for update in (None, lambda _, time, *_rest: told.append(time)):
+        folder = tmp_path / f"told-{update is not None}"
+        with ready(fmu, folder, settings, event_mode=False, update=update) as (slave, references):
+            slave.setFloat64([references[name] for name in inputs], list(inputs.values()))
+            for step in range(10):
+                slave.doStep(step / 32, 1 / 32)
+            ends.append(slave.getFloat64([references[name] for name in observed]))
+    assert ends[0] == ends[1]
+    assert len(told) > 2
+
+
 @pytest.mark.parametrize("version", [2, 3])
 def test_a_torque_is_held_or_goes_on_at_its_rate(tmp_path: Path, version: int) -> None:
     """Without friction the disk is a flywheel: angular velocity is the integral of torque over I = 0.05 kg.m2."""

@@ -23,6 +23,15 @@ pub enum Part {
     Done(Reached),
 }
 
+/// How far a scene is to go at once.
+#[derive(Clone, Copy)]
+enum Way {
+    ToEnd,
+    ToEvent,
+    /// On from an event inside of the step.
+    OnToEvent,
+}
+
 /// A step that is not done yet.
 pub(super) struct UnderWay<State> {
     /// All as it was before the step, in case that the rest is refused.
@@ -41,7 +50,8 @@ impl<S: Scene> Instance<S> {
     pub fn do_step(&mut self, current: f64, step: f64) -> Result<Reached> {
         Call::DoStep.check(self.phase)?;
         let end = self.end_of_step(current, step)?;
-        self.advance(end, S::EVENTS && self.importer.stops_at_events())
+        let stops = S::EVENTS && self.importer.stops_at_events();
+        self.advance(end, if stops { Way::ToEvent } else { Way::ToEnd })
     }
 
     /// Begins a step from `current` \[s\] by `step` \[s\] that stops at every event inside of it, to go on from there.
@@ -52,7 +62,7 @@ impl<S: Scene> Instance<S> {
         Call::DoStep.check(self.phase)?;
         let end = self.end_of_step(current, step)?;
         let before = self.save()?;
-        self.advance_part(UnderWay { before, end })
+        self.advance_part(UnderWay { before, end }, Way::ToEvent)
     }
 
     /// Goes on after an event. The step ends at `early_return` \[s\] if that is given, or at once if it is past or not
@@ -72,7 +82,7 @@ impl<S: Scene> Instance<S> {
             step.end = step.end.min(wanted);
         }
         if step.end > now {
-            return self.advance_part(step);
+            return self.advance_part(step, Way::OnToEvent);
         }
         self.phase = Phase::Step;
         Ok(Part::Done(Reached {
@@ -98,8 +108,8 @@ impl<S: Scene> Instance<S> {
     }
 
     /// To the next event, or to the end of the step, which an event there does not make another one.
-    fn advance_part(&mut self, step: UnderWay<S::State>) -> Result<Part> {
-        match self.advance(step.end, true) {
+    fn advance_part(&mut self, step: UnderWay<S::State>, way: Way) -> Result<Part> {
+        match self.advance(step.end, way) {
             Ok(Reached { time, .. }) if time < step.end => {
                 self.phase = Phase::IntermediateUpdate;
                 self.under_way = Some(step);
@@ -116,17 +126,19 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    fn advance(&mut self, end: f64, to_event: bool) -> Result<Reached> {
+    fn advance(&mut self, end: f64, way: Way) -> Result<Reached> {
         let Some(scene) = &mut self.scene else {
             return Err(Error::call("the scene was never initialised", "Reset the instance."));
         };
-        let reached = if to_event {
-            scene.advance_to_event(end, &self.values)?
-        } else {
-            scene.advance_to(end, &self.values)?;
-            Reached {
-                time: end,
-                event: false,
+        let reached = match way {
+            Way::ToEvent => scene.advance_to_event(end, &self.values)?,
+            Way::OnToEvent => scene.go_on_to_event(end, &self.values)?,
+            Way::ToEnd => {
+                scene.advance_to(end, &self.values)?;
+                Reached {
+                    time: end,
+                    event: false,
+                }
             }
         };
         let legal = reached.time == end || reached.event && reached.time > self.clock.now && reached.time < end;

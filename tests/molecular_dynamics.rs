@@ -315,3 +315,51 @@ fn lasting_contact_follows_the_driven_oscillator() {
         assert!(order > expected - 0.1, "{name}: {errors:?}, order {order}");
     }
 }
+
+/// Closed contacts are counted where they close and open: the count is that of the disks that overlap, with skins and
+/// without, and a state that says otherwise is none.
+#[test]
+fn closed_contacts_are_those_that_overlap() {
+    for friction in [0.1, 0.0] {
+        let setup = Setup {
+            laws: laws(0.1, 0.77, friction),
+            walls: vec![Wall::vibrating_floor(), Wall::left(-0.1), Wall::right(0.1)],
+            masses: vec![mass(RADIUS); 12],
+            gravity: 9.8,
+            time_step: 1e-5,
+            start_time: 0.0,
+        };
+        let disk = |index: u32| Disk {
+            x: f64::from(index % 4) * 0.049 - 0.073 + 0.003 * f64::from(index / 4),
+            y: RADIUS + f64::from(index / 4) * 0.042,
+            radius: RADIUS,
+        };
+        let disks: Vec<Disk> = (0..12).map(disk).collect();
+        let sine = Sine {
+            amplitude: 1e-3,
+            frequency: 40.0,
+            phase: 0.0,
+        };
+        let mut engine = MolecularDynamics::<VelocityVerlet, _>::new(setup, &disks, sine);
+        let mut seen = std::collections::BTreeSet::new();
+        for step in 1..=400 {
+            let time = 1e-3 * f64::from(step);
+            engine.advance_to(time).unwrap();
+            let (now, floor) = (engine.now(), engine.now().base.displacement);
+            let places = &now.places()[..12];
+            let closed = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]) < 2.0 * RADIUS;
+            let pairs = (0..12).flat_map(|i| (0..i).map(move |j| (i, j)));
+            let between = pairs.filter(|&(i, j)| closed(&places[i], &places[j])).count();
+            let at_walls = places.iter().flat_map(|[x, y, _]| [y - floor, x + 0.1, 0.1 - x]);
+            let count = between + at_walls.filter(|distance| *distance < RADIUS).count();
+            assert_eq!(now.contacts as usize, count, "at {time} s, friction {friction}");
+            seen.insert(count);
+        }
+        assert!(seen.len() > 5, "{seen:?}");
+
+        let (mut state, time) = (engine.state().clone(), 0.4);
+        assert!(engine.fits(&state, time));
+        state.contacts += 1;
+        assert_eq!(engine.fits(&state, time), friction == 0.0);
+    }
+}

@@ -10,6 +10,11 @@ pub struct ElasticSkin {
 }
 
 impl ElasticSkin {
+    /// Whether there is any force along the surfaces.
+    pub fn acts(&self) -> bool {
+        self.friction > 0.0 && self.stiffness > 0.0
+    }
+
     /// The stretch \[m\] that Amonton's condition `k_t |s| <= mu n` leaves of `stretch` s = lambda - lambda* \[m\].
     ///
     /// What is cut off is slip: the caller moves lambda* by it. `normal_force` n >= 0 \[N\]. Source: P 4.6 with the sign

@@ -45,6 +45,8 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
             && walls_hold
             && skins_hold
             && reaches_hold
+            // From step to step only those are counted that close and open.
+            && (!self.setup.laws.skin.acts() || state.contacts == state.remembered())
             && ahead >= -step - rounding
             && ahead <= 2.0 * step + rounding
             && state.searched_step <= state.steps

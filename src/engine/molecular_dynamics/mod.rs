@@ -287,8 +287,7 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
     /// Forces at the present positions, velocities and base motion, into `self.force`. Compiled with skins and without, so
     /// that the loops hold no branch on it.
     fn evaluate(&mut self, step: f64) -> Tally {
-        let skin = self.setup.laws.skin;
-        if skin.friction > 0.0 && skin.stiffness > 0.0 {
+        if self.setup.laws.skin.acts() {
             self.evaluate_with::<true>(step)
         } else {
             self.evaluate_with::<false>(step)
@@ -387,9 +386,7 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         self.neighbours
             .find_at_walls(cloud, &self.setup.walls, state.searched_base, &mut state.at_walls);
         // A closed one whose disks have jumped apart is not listed any more.
-        let between = state.pairs.iter().filter(|pair| pair.skin.is_closed()).count();
-        let at_walls = state.at_walls.iter().filter(|near| near.skin.is_closed()).count();
-        state.contacts = (between + at_walls) as u32;
+        state.contacts = state.remembered();
     }
 }
 

@@ -106,4 +106,11 @@ impl<D> State<D> {
     pub fn rates(&self) -> &[[f64; 3]] {
         self.velocity.as_chunks().0
     }
+
+    /// How many contacts remember that they are closed; none does without skins.
+    pub fn remembered(&self) -> u32 {
+        let between = self.pairs.iter().filter(|pair| pair.skin.is_closed()).count();
+        let at_walls = self.at_walls.iter().filter(|near| near.skin.is_closed()).count();
+        (between + at_walls) as u32
+    }
 }

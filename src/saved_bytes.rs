@@ -30,7 +30,7 @@ pub fn write(value: &impl Serialize, owner: &str) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Reads what [`write`] wrote for the same owner.
+/// Reads what [`write()`] wrote for the same owner.
 ///
 /// # Errors
 /// [`Error::State`] that says what is wrong with the bytes.

@@ -84,7 +84,7 @@ impl Component {
         token::compose(&self.card, self.choice, &self.rows, self.arrays)
     }
 
-    /// The reference trajectory, see [`reference`].
+    /// The reference trajectory, see [`mod@reference`].
     ///
     /// # Errors
     /// The table cannot be written.

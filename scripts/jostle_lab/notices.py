@@ -53,9 +53,7 @@ class Crate:
 
 def notices(root: Path = ROOT) -> str:
     """The whole text for the workspace at `root`; it needs the sources that `cargo fetch` puts on this machine."""
-    metadata = json.loads(_cargo(root, "metadata", "--format-version", "1"))
-    packages = {(found["name"], found["version"]): found for found in metadata["packages"]}
-    own = {key for key, found in packages.items() if found["source"] is None}
+    packages, own = _packages(root)
     fmus = [name for name, version in own if Path(packages[name, version]["manifest_path"]).parts[-3] == "fmu"]
     in_fmus = linked(_tree(root, fmus)) - own
     in_library = linked(_tree(root, ["jostle-c"])) - own
@@ -68,9 +66,7 @@ def notices(root: Path = ROOT) -> str:
 
 def notices_of_command_line(root: Path = ROOT) -> str:
     """The same for the program `jostle`, which is shipped beside the FMUs and holds more than they do."""
-    metadata = json.loads(_cargo(root, "metadata", "--format-version", "1"))
-    packages = {(found["name"], found["version"]): found for found in metadata["packages"]}
-    own = {key for key, found in packages.items() if found["source"] is None}
+    packages, own = _packages(root)
     crates = [_crate(packages[key]) for key in sorted(linked(_tree(root, ["jostle"], SHIPPED)) - own)]
     lists = {"In the command line:": crates}
     return compose("jostle's command line holds", lists, STANDARD_LIBRARY.read_text(encoding="utf-8"))
@@ -115,6 +111,13 @@ def notices_command(
     """Write the notices of all crates that are linked into the FMUs and the C library."""
     out.write_text(notices_of_command_line() if command_line else notices(), encoding="utf-8")
     typer.echo(out)
+
+
+def _packages(root: Path) -> tuple[dict[tuple[str, str], dict[str, str]], set[tuple[str, str]]]:
+    """All packages by name and version, and which of them are this workspace's."""
+    metadata = json.loads(_cargo(root, "metadata", "--format-version", "1"))
+    packages = {(found["name"], found["version"]): found for found in metadata["packages"]}
+    return packages, {key for key, found in packages.items() if found["source"] is None}
 
 
 def _list(heading: str, crates: Sequence[Crate]) -> str:

@@ -56,23 +56,22 @@ fn pick<T: Copy>(generator: &mut Pcg64, from: &[T]) -> T {
     from[generator.random_range(0..from.len())]
 }
 
+macro_rules! trials {
+    ($module:ident, $trial:ident; $($name:ident: $scene:ty, $usual:expr;)*) => {
+        mod $module {
+            use super::*;
+            $(#[test]
+            fn $name() {
+                run_all(stringify!($name), $usual, $trial::<$scene>);
+            })*
+        }
+    };
+}
+
 macro_rules! scenes {
     ($($name:ident: $scene:ty, $extremes:expr, $damaged:expr;)*) => {
-        mod extreme_parameters {
-            use super::*;
-            $(#[test]
-            fn $name() {
-                run_all(stringify!($name), $extremes, extremes::<$scene>);
-            })*
-        }
-
-        mod damaged_states {
-            use super::*;
-            $(#[test]
-            fn $name() {
-                run_all(stringify!($name), $damaged, damaged::<$scene>);
-            })*
-        }
+        trials! { extreme_parameters, extremes; $($name: $scene, $extremes;)* }
+        trials! { damaged_states, damaged; $($name: $scene, $damaged;)* }
     };
 }
 

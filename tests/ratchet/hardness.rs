@@ -138,16 +138,10 @@ fn a_base_on_inputs_is_hard_and_moves_disks() {
     let mut values = values_of::<RatchetOnInput>(choice, &POSITIVE[..2]);
     let profile = Profile::new(6e-3, 3e-3, 0.1, 4e-4);
     let mut ratchet = RatchetOnInput::new(choice, 0.0, &values).unwrap();
-    let (omega, step) = (std::f64::consts::TAU * 25.0, 1e-3);
+    let step = 1e-3;
     for index in 0..20_000_u32 {
         let time = f64::from(index) * step;
-        let (sine, cosine) = (omega * time).sin_cos();
-        values
-            .set_by_name("base.displacement", Value::Real(2e-3 * sine))
-            .unwrap();
-        values
-            .set_by_name("base.velocity", Value::Real(2e-3 * omega * cosine))
-            .unwrap();
+        aim(&mut values, time);
         ratchet.advance_to(time + step, &values).unwrap();
         let base = ratchet
             .engine()

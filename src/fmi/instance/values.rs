@@ -44,9 +44,7 @@ impl<S: Scene> Instance<S> {
 
     /// Whether a variable is behind `reference`.
     pub fn knows(&self, reference: u32) -> bool {
-        let position = (reference as usize).wrapping_sub(1);
-        let inside = self.spans.as_ref().and_then(|spans| spans.get(position)) == Some(&0);
-        reference == TIME_REFERENCE || position < self.values.table().rows().len() && !inside
+        reference == TIME_REFERENCE || self.locate(reference).is_ok()
     }
 
     /// Value behind `reference`; of an array the first element.
@@ -174,10 +172,11 @@ impl<S: Scene> Instance<S> {
         ))
     }
 
-    fn position(&self, reference: u32, access: Access) -> Result<usize> {
+    /// Position of the row behind `reference`, whatever its type.
+    fn locate(&self, reference: u32) -> Result<usize> {
         let rows = self.values.table().rows();
         let position = (reference as usize).wrapping_sub(1);
-        let Some(row) = rows.get(position) else {
+        if position >= rows.len() {
             let what = match reference {
                 TIME_REFERENCE => "value reference 0 is the time, a real that only steps change".into(),
                 _ => format!("value reference {reference} is unknown, there are 0 to {}", rows.len()),
@@ -186,13 +185,19 @@ impl<S: Scene> Instance<S> {
                 what,
                 "Take the value references from modelDescription.xml.",
             ));
-        };
+        }
         if self.spans.as_ref().is_some_and(|spans| spans[position] == 0) {
             return Err(Error::call(
                 format!("value reference {reference} is inside of an array"),
                 "Take the value references from modelDescription.xml.",
             ));
         }
+        Ok(position)
+    }
+
+    fn position(&self, reference: u32, access: Access) -> Result<usize> {
+        let position = self.locate(reference)?;
+        let row = &self.values.table().rows()[position];
         if access.fits(row) {
             return Ok(position);
         }

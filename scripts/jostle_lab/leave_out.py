@@ -2,7 +2,7 @@
 
 Instructions are those of `jostle run` under `valgrind --tool=callgrind`, of a long run less a short one, so that
 start-up, files and the progress bar drop out. They depend on compiler, profile and the C library's mathematics, not on
-load. The pinned counts (`docs/leave_out/instructions.csv`) hold for the default release profile.
+load. The pinned counts (`docs/generated/instruction_counts/instructions.csv`) hold for the default release profile.
 """
 
 import re
@@ -147,7 +147,7 @@ def section(folder: Path) -> str:
 
 
 def leave_out(
-    data: Annotated[Path, typer.Option(help="Folder of the counts.")] = Path("docs/leave_out"),
+    data: Annotated[Path, typer.Option(help="Folder of the counts.")] = Path("docs/generated/instruction_counts"),
     program: Annotated[Path, typer.Option(help="The command line, default release profile.")] = Path(
         "target/release/jostle"
     ),

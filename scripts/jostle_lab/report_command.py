@@ -23,9 +23,9 @@ class Part(StrEnum):
 
 
 def report(
-    data: Annotated[Path, typer.Option(help="Folder of the measured points.")] = Path("docs/report"),
+    data: Annotated[Path, typer.Option(help="Folder of the measured points.")] = Path("docs/generated/report"),
     page: Annotated[Path, typer.Option(help="Markdown page; its pictures go into the folder of the points.")] = Path(
-        "docs/report.md"
+        "docs/generated/report.md"
     ),
     measure: Annotated[
         list[Part] | None, typer.Option(help="Measure this part anew; may be repeated. Without it: only the page.")

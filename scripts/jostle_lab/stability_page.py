@@ -1,4 +1,4 @@
-"""`docs/stability.md` from what `jostle stability` wrote: a table for each scene and engine, and what was told."""
+"""`docs/generated/stability.md` from the files of `jostle stability`: a table for each scene and engine, refusals."""
 
 from pathlib import Path
 from typing import Annotated
@@ -13,10 +13,10 @@ Row = dict[str, str]
 
 HEAD = """# Stability
 
-Written by `python -m jostle_lab stability` from `docs/stability/*.csv`, which `jostle stability` measured: every scene
-and engine, one dimension at a time from tame to extreme, everything else at its start value. `holds`: every criterion
-that applies holds for the simulated time, which a budget of CPU seconds may have cut short. `refused`: the scene said
-no, with a reason and a remedy, below. `violated`: a defect.
+Written by `python -m jostle_lab stability` from `docs/generated/stability/*.csv`, which `jostle stability` measured:
+every scene and engine, one dimension at a time from tame to extreme, everything else at its start value. `holds`: every
+criterion that applies holds for the simulated time, which a budget of CPU seconds may have cut short. `refused`: the
+scene said no, with a reason and a remedy, below. `violated`: a defect.
 """
 CRITERIA = {
     "finite": "every variable is a finite number at every look",
@@ -90,8 +90,10 @@ def _criteria(row: Row) -> list[str]:
 
 
 def stability(
-    data: Annotated[Path, typer.Option(help="Folder that `jostle stability --out` wrote.")] = Path("docs/stability"),
-    out: Annotated[Path, typer.Option(help="Markdown page.")] = Path("docs/stability.md"),
+    data: Annotated[Path, typer.Option(help="Folder that `jostle stability --out` wrote.")] = Path(
+        "docs/generated/stability"
+    ),
+    out: Annotated[Path, typer.Option(help="Markdown page.")] = Path("docs/generated/stability.md"),
 ) -> None:
     """Write the page of stiff and extreme cases from the results of `jostle stability`."""
     if not (data / "cases.csv").is_file():

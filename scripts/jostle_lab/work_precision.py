@@ -204,7 +204,7 @@ def page(folder: Path, pictures: str) -> str:
     found = diagrams(folder)
     machine = {row["name"]: row["value"] for row in read_rows([folder / "machine.csv"])}
     parts = [_head(machine), _summary(found)]
-    counts = folder.parent / "leave_out"
+    counts = folder.parent / "instruction_counts"
     if (counts / "instructions.csv").is_file():
         parts.append(leave_out.section(counts))
     notes = read_rows(sorted(folder.glob("notes*.csv")))
@@ -217,8 +217,8 @@ def page(folder: Path, pictures: str) -> str:
 def _head(machine: dict[str, str]) -> str:
     return (
         "# Error against run time\n\n"
-        "Written by `python -m jostle_lab report`; what is measured here is in `docs/report/*.csv`. Each point is one "
-        "setting of one method; CPU time is that of one solution without its set-up, the median of "
+        "Written by `python -m jostle_lab report`; what is measured here is in `docs/generated/report/*.csv`. Each "
+        "point is one setting of one method; CPU time is that of one solution without its set-up, the median of "
         f"{machine['rounds']} rounds in which all points of a case take turns. The order is minus the slope of the "
         "straight line through error against evaluations on log axes, which is that against CPU time without what does "
         "not grow with the work. Points at rounding are left out of it, and those within ten times the error at which "

@@ -108,16 +108,18 @@ def test_points_are_kept_as_they_are_and_missing_ones_are_told(tmp_path: Path) -
 
 
 def test_page_is_what_the_kept_data_say() -> None:
-    """docs/ratchet.md is generated: `python -m jostle_lab ratchet-page`."""
-    docs = ROOT / "docs"
+    """docs/generated/ratchet.md is generated: `python -m jostle_lab ratchet-page`."""
+    docs = ROOT / "docs/generated"
     made = page.page(read_points(docs / page.POINTS), page.read_flow(docs / page.FLOW))
-    assert made == (docs / page.PAGE).read_text(), "docs/ratchet.md differs: run python -m jostle_lab ratchet-page"
+    assert made == (docs / page.PAGE).read_text(), (
+        "docs/generated/ratchet.md differs: run python -m jostle_lab ratchet-page"
+    )
     assert (docs / page.POINTS).stat().st_size < 100_000
 
 
 def test_kept_velocities_are_those_of_the_program(laboratory: Laboratory) -> None:
-    """Fresh runs of other seeds against docs/ratchet.csv: the same means within five joint standard errors."""
-    kept = read_points(ROOT / "docs" / page.POINTS)
+    """Fresh runs of other seeds against docs/generated/ratchet.csv: means within five joint standard errors."""
+    kept = read_points(ROOT / "docs/generated" / page.POINTS)
     for case, runs in ((quoted.POSITIVE, 10), (quoted.NEGATIVE, 10), (frequency.case(25.0, 30), 6)):
         fresh = [case.run(1000 + seed) for seed in range(runs)]
         tables = laboratory.run(fresh, "fresh")

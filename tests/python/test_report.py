@@ -16,26 +16,28 @@ def curve(errors: list[float], times: list[float]) -> list[Point]:
 
 
 def test_committed_page_is_that_of_the_committed_data() -> None:
-    written = page(ROOT / "docs/report", "report")
-    assert written == (ROOT / "docs/report.md").read_text(), "write it anew: python -m jostle_lab report"
+    written = page(ROOT / "docs/generated/report", "report")
+    assert written == (ROOT / "docs/generated/report.md").read_text(), "write it anew: python -m jostle_lab report"
 
 
 def test_committed_stability_page_is_that_of_the_committed_data() -> None:
-    written = stability_page.page(ROOT / "docs/stability")
-    assert written == (ROOT / "docs/stability.md").read_text(), "write it anew: python -m jostle_lab stability"
+    written = stability_page.page(ROOT / "docs/generated/stability")
+    assert written == (ROOT / "docs/generated/stability.md").read_text(), (
+        "write it anew: python -m jostle_lab stability"
+    )
 
 
 def test_committed_page_of_binaries_is_that_of_the_committed_data() -> None:
-    written = binaries_page.page(ROOT / "docs/binaries")
-    again = "write it anew: scripts/release, then python -m jostle_lab binaries --data docs/binaries"
-    assert written == (ROOT / "docs/binaries.md").read_text(), again
+    written = binaries_page.page(ROOT / "docs/generated/binaries")
+    again = "write it anew: scripts/release, then python -m jostle_lab binaries --data docs/generated/binaries"
+    assert written == (ROOT / "docs/generated/binaries.md").read_text(), again
 
 
 def test_every_measured_case_has_a_small_picture(tmp_path: Path) -> None:
-    found = diagrams(ROOT / "docs/report")
+    found = diagrams(ROOT / "docs/generated/report")
     assert sum(bool(diagram.curves) for diagram in found) >= 10
     pictures = draw_all(found, tmp_path)
-    assert {picture.name for picture in pictures} == {p.name for p in (ROOT / "docs/report").glob("*.png")}
+    assert {picture.name for picture in pictures} == {p.name for p in (ROOT / "docs/generated/report").glob("*.png")}
     assert sum(picture.stat().st_size for picture in pictures) < 200_000
 
 

@@ -1,7 +1,7 @@
-"""docs/ratchet.md: every statement of F IV beside what was found, from the data kept in docs/.
+"""docs/generated/ratchet.md: every statement of F IV beside what was found, from the data kept in docs/generated/.
 
-    docs/ratchet.csv        velocity of every run
-    docs/ratchet-flow.csv   what F reads off Figs 13 and 14
+    docs/generated/ratchet.csv        velocity of every run
+    docs/generated/ratchet-flow.csv   what F reads off Figs 13 and 14
 
 The page is a function of the two files: a test makes it anew and compares.
 """
@@ -40,8 +40,8 @@ POINTS, FLOW, PAGE = "ratchet.csv", "ratchet-flow.csv", "ratchet.md"
 HEAD = """# The ratchet's paper, statement by statement
 
 F: Z. Farkas, P. Tegzes, A. Vukics, T. Vicsek, *Transitions in the horizontal transport of vertically vibrated granular
-layers* (2002). This page is generated; do not edit it. It is made of `docs/ratchet.csv`, the transport velocity of
-every run, and `docs/ratchet-flow.csv`, what was read off the fields.
+layers* (1999). This page is generated; do not edit it. It is made of `docs/generated/ratchet.csv`, the
+transport velocity of every run, and `docs/generated/ratchet-flow.csv`, what was read off the fields.
 
 - `python -m jostle_lab ratchet-page` makes it anew from these files; with `--compute` it first runs what is missing in
   `results/`, everything if nothing is there (about {cost} of one processor), and replaces the files.
@@ -177,7 +177,7 @@ def ratchet_page(
     compute_anew: Annotated[
         bool, typer.Option("--compute", help="First run what is missing in results, and replace the data.")
     ] = False,
-    docs: Annotated[Path, typer.Option(help="Folder of the page and its data.")] = Path("docs"),
+    docs: Annotated[Path, typer.Option(help="Folder of the page and its data.")] = Path("docs/generated"),
     results: Annotated[Path, typer.Option(help="Folder of the runs.")] = Path("results"),
     processes: Annotated[int, typer.Option(min=1, max=256, help="Runs at the same time.")] = 2,
     program: Annotated[Path, typer.Option(help="The native command line.")] = Path("target/release/jostle"),
@@ -186,7 +186,7 @@ def ratchet_page(
     ] = None,
     progress: Annotated[bool, typer.Option(help="Show progress bars.")] = True,
 ) -> None:
-    """Write docs/ratchet.md, every statement of the ratchet's paper beside what was found, from the data beside it."""
+    """Write docs/generated/ratchet.md, every statement of the ratchet's paper beside what was found, from its data."""
     if compute_anew:
         compute(Laboratory(program, results / "runs", processes, progress, scheduler), docs)
     (docs / PAGE).write_text(page(read_points(docs / POINTS), read_flow(docs / FLOW)))

@@ -6,5 +6,6 @@ accelerometers and a camera watch. The grains are an FMU; everything else is her
     voltage -> loudspeaker -> base displacement, velocity -> FMU -> reaction force -> loudspeaker
 
 SI units and radians everywhere; x right, y up, angles counter-clockwise positive. The laboratory is that of
-J. Peraza Mues, "Rotation in vibrated disk packings" (2018), sections 2.4 and 3.1; "P" in docstrings means that thesis.
+P 2.4 and 3.1. "P" in docstrings means G. G. Peraza Mues, Spontaneous rotation in vibrated disk packings, doctoral
+thesis, Cinvestav Mérida, 2018.
 """

@@ -8,7 +8,7 @@
 //! above the floor; equal input gives equal bits on every machine (only `+ - * /` and square roots are used).
 //! Not here: settling under gravity, which the engines do.
 //!
-//! Source: Peraza-Mues 2018, chapter 2.1 and eqs 2.1-2.6 with the signs corrected: the upper root of 2.3, 2.4 holds for
+//! Source: P, chapter 2.1 and eqs 2.1-2.6 with the signs corrected: the upper root of 2.3, 2.4 holds for
 //! `a` left of `b`; in 2.5, 2.6 the upper sign is for the left wall and for a floor with the disk on its left.
 
 mod candidates;

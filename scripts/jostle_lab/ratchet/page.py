@@ -40,8 +40,9 @@ POINTS, FLOW, PAGE = "ratchet.csv", "ratchet-flow.csv", "ratchet.md"
 HEAD = """# The ratchet's paper, statement by statement
 
 F: Z. Farkas, P. Tegzes, A. Vukics, T. Vicsek, *Transitions in the horizontal transport of vertically vibrated granular
-layers* (1999). This page is generated; do not edit it. It is made of `docs/generated/ratchet.csv`, the
-transport velocity of every run, and `docs/generated/ratchet-flow.csv`, what was read off the fields.
+layers*, Phys. Rev. E 60, 7022 (1999). This page is generated; do not edit it. It is made of
+`docs/generated/ratchet.csv`, the transport velocity of every run, and `docs/generated/ratchet-flow.csv`, what was read
+off the fields.
 
 - `python -m jostle_lab ratchet-page` makes it anew from these files; with `--compute` it first runs what is missing in
   `results/`, everything if nothing is there (about {cost} of one processor), and replaces the files.

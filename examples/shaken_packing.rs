@@ -1,4 +1,4 @@
-//! The packing of the README on a shaken base, as a Rust program.
+//! A packing on a shaken base, as a Rust program.
 
 use std::f64::consts::TAU;
 

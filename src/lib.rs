@@ -16,3 +16,8 @@ pub mod saved_bytes;
 pub mod scene;
 
 pub use error::{Error, Result};
+
+/// The programs of the guide run with the tests of the documentation.
+#[cfg(all(doctest, feature = "toml"))]
+#[doc = include_str!("../docs/rust.md")]
+pub struct GuideForRust;

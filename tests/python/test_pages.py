@@ -103,6 +103,18 @@ def test_files_that_a_page_names_in_code_exist() -> None:
     assert missing == []
 
 
+def test_links_lead_somewhere() -> None:
+    """Of the files alone: scripts/docs checks the anchors too."""
+    targets = [
+        (page, target.split("#")[0])
+        for page, text in EVERYTHING.items()
+        for target in re.findall(r"\]\(([^)\s]+)\)", text)
+        if not target.startswith(("https:", "#"))
+    ]
+    assert len(targets) > 50
+    assert [(page, target) for page, target in targets if not (ROOT / page).parent.joinpath(target).is_file()] == []
+
+
 def test_readme_is_short_and_its_picture_small() -> None:
     assert len((ROOT / "README.md").read_bytes()) <= 6 * 1024
     assert (ROOT / "docs/packing.png").stat().st_size < 300 * 1024

@@ -3,7 +3,7 @@
 //! `cargo run --release --example peer_molecular_dynamics -- FILE STEPS TIME_STEP`
 //!
 //! FILE: first line `count width height`, then `radius x y vx vy omega` of each disk, with the corner of the box at the
-//! origin. Laws, masses and motion of the bottom are those of the case in the yardsticks' own page: surface density
+//! origin. Laws, masses and motion of the bottom are those of the case in benches/peers/README.md: surface density
 //! 3.57 kg/m2, g 9.8 m/s2, k_n 1e4 N/m, kappa 0.77, damping 0.1 kg/s, friction 0.1, bottom A - A cos(2 pi 80 t) with
 //! A = 0.15514 mm (Gamma 4). Prints processor time per disk and step, and energies to compare.
 

@@ -266,7 +266,7 @@ print(execution.add_local_slave(CosimLocalSlave(sys.argv[1], "wedge")))
 
 
 def test_libcosim_cannot_load_fmi_3(folder: Path):
-    """It crashes or refuses (libcosim issue 741); FMI 2.0 runs, see test_readme.py::test_libcosim."""
+    """It crashes or refuses (libcosim issue 741); FMI 2.0 runs, see test_docs.py::test_libcosim."""
     command = [sys.executable, "-c", FMI3_IN_LIBCOSIM, str(folder / "wedge3.fmu")]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode != 0 or done.stdout.strip() == "-1", (

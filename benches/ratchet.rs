@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use cpu_time::ProcessTime;
 use jostle::collision::{Coulomb, VelocityFloor};
-use jostle::engine::event_driven::{Counts, EventDriven, Gravity, Periodic, Settings, Unbounded};
-use jostle::geometry::Disk;
+use jostle::engine::event_driven::{Counts, EventDriven, Model, Periodic, Region, Settings, Walls};
+use jostle::geometry::{Disk, Vector2};
 use jostle::scene::ratchet::RatchetOnSine;
 use jostle::scene::{Choice, Scene, Table, Value, Values};
 use rand_pcg::Pcg64;
@@ -45,7 +45,7 @@ impl Done {
     fn between(cpu: f64, simulated: f64, before: Counts, after: Counts) -> Self {
         let disk_impacts = (after.disk_impacts - before.disk_impacts) as f64;
         let wall_impacts = (after.wall_impacts - before.wall_impacts) as f64;
-        let others = (after.listings - before.listings + after.stale - before.stale) as f64;
+        let others = (after.list_renewals - before.list_renewals + after.stale - before.stale) as f64;
         Self {
             cpu,
             simulated,
@@ -133,13 +133,20 @@ fn gas(disks: usize) -> f64 {
     let all: Vec<Disk> = (0..across * across).map(place).collect();
     let velocities: Vec<[f64; 3]> = all.iter().map(|_| [unit(), unit(), 0.0]).collect();
     let law = VelocityFloor::new(Coulomb::new(1.0, 0.0).expect("a law"), 1e-9).expect("a law");
-    let size = [across as f64 * spacing; 2];
     let settings = Settings {
         shell: 2.0,
         ..Settings::default()
     };
-    let types = (law, Unbounded, Gravity(1e-9), Periodic { size });
-    let mut engine = EventDriven::new(types, &all, &vec![1e-5; all.len()], &velocities, settings);
+    let model = Model {
+        law,
+        boundary: Walls::none(),
+        gravity: 1e-9,
+        space: Periodic(Region {
+            corner: Vector2::zeros(),
+            size: Vector2::repeat(across as f64 * spacing),
+        }),
+    };
+    let mut engine = EventDriven::new(model, &all, &vec![1e-5; all.len()], &velocities, settings);
     engine.advance_to(0.5).expect("headway");
     let before = engine.state().counts.disk_impacts;
     let (start, mut time, mut step) = (ProcessTime::now(), 0.5, 0.01);

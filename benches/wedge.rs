@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 use jostle::collision::{CollisionLaw, Dashpot, TabulatedDashpot, VelocityFloor};
 use jostle::contact::LinearDashpot;
-use jostle::drive::{RandomPhase, Sine};
-use jostle::engine::wedge::{DiskInWedge, Frame, Moving, Resting, Setup, WallMotion};
+use jostle::drive::{AtRandomPhase, BaseMotion, RandomPhase, Sine};
+use jostle::engine::wedge::{DiskInWedge, Start, WedgeFrame, WedgeSetup};
 use jostle::scene::wedge::{WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnSine};
 use jostle::scene::{Choice, Scene, Table, Value, Values};
 use rand::SeedableRng;
@@ -44,14 +44,19 @@ fn law(restitution: f64) -> TabulatedDashpot {
     TabulatedDashpot::new(law, &[1.0], 0.5)
 }
 
-fn bounces<L: CollisionLaw, B: WallMotion>(name: &str, law: L, walls: B) {
-    let setup = Setup {
-        frame: Frame::new(TAU / 3.0, 0.1745),
+fn bounces<L: CollisionLaw, B: BaseMotion>(name: &str, law: L, walls: B) {
+    let setup = WedgeSetup {
+        frame: WedgeFrame::new(TAU / 3.0, 0.1745),
         radius: 0.02,
         gravity: 9.81,
         slow: 0.0,
     };
-    let mut disk = DiskInWedge::new(setup, law, walls, 0.0, 1e-3, 0.02);
+    let start = Start {
+        time: 0.0,
+        height: 1e-3,
+        sideways: 0.02,
+    };
+    let mut disk = DiskInWedge::new(setup, law, walls, start);
     let count = 200_000;
     let seconds = median(|| (0..count).for_each(|_| disk.next_impact().expect("bounces")));
     println!(
@@ -109,7 +114,7 @@ fn scene<S: Scene>(seconds: f64) {
 
 fn main() {
     for restitution in [0.9, 0.5] {
-        let walls = Resting {
+        let walls = AtRandomPhase {
             phase: RandomPhase {
                 peak_velocity: BASE.amplitude * BASE.frequency * TAU,
             },
@@ -117,7 +122,7 @@ fn main() {
         };
         bounces(&format!("map, e_n {restitution}"), law(restitution), walls);
         let floored = VelocityFloor::new(law(restitution), 1e-4).expect("a legal floor");
-        bounces(&format!("moving wedge, e_n {restitution}"), floored, Moving(BASE));
+        bounces(&format!("moving wedge, e_n {restitution}"), floored, BASE);
     }
     scene::<WedgeMap>(1000.0);
     scene::<WedgeEventDrivenOnSine>(1000.0);

@@ -1,7 +1,7 @@
 //! The wedge map with two laws that no scene has, as CSV, for P Figs 6.6 and 6.9:
 //! `cargo run --release --example wedge_other_laws -- LAW MU KAPPA APERTURE SECONDS SEED TILT...`, angles in degrees.
 //!
-//! LAW is `rigid`, infinitely stiff skins, `e_t = max(0, 1 - 3 mu (1 + e_n) |u_n / u_t|)`: sliding friction that at most
+//! LAW is `rigid`, infinitely stiff tangential springs, `e_t = max(0, 1 - 3 mu (1 + e_n) |u_n / u_t|)`: sliding friction that at most
 //! stops the surfaces, which is what [`Coulomb`] does. Or `recipe`, the one printed after P 4.79: full sliding (4.75)
 //! wherever `|u_t / u_n| > mu / kappa`, stitching below; it can create energy (see docs of `collision::Dashpot`).
 //! Normal restitution 0.9, Gamma = 2 at 80 Hz; a tenth of the time is left out at the start.
@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 
 use jostle::collision::{CollisionLaw, Coulomb, Dashpot, Impact};
 use jostle::contact::LinearDashpot;
-use jostle::drive::RandomPhase;
-use jostle::engine::wedge::{DiskInWedge, Frame, Resting, Setup};
+use jostle::drive::{AtRandomPhase, RandomPhase};
+use jostle::engine::wedge::{DiskInWedge, Start, WedgeFrame, WedgeSetup};
 use jostle::measure::BatchMeans;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -63,7 +63,7 @@ fn main() -> Result<(), Failure> {
     };
     println!("scaled,standard_error");
     for tilt in tilts {
-        let frame = Frame::new(aperture.to_radians(), tilt.to_radians());
+        let frame = WedgeFrame::new(aperture.to_radians(), tilt.to_radians());
         match law.as_str() {
             "rigid" => run(Coulomb::new(RESTITUTION, *friction)?, frame, *seconds, *seed as u64)?,
             "recipe" => {
@@ -82,20 +82,25 @@ fn main() -> Result<(), Failure> {
 }
 
 /// Runs at one tilt and prints its row.
-fn run<L: CollisionLaw>(law: L, frame: Frame, seconds: f64, seed: u64) -> Result<(), Failure> {
-    let walls = Resting {
+fn run<L: CollisionLaw>(law: L, frame: WedgeFrame, seconds: f64, seed: u64) -> Result<(), Failure> {
+    let walls = AtRandomPhase {
         phase: RandomPhase {
             peak_velocity: PEAK_VELOCITY,
         },
         generator: Pcg64::seed_from_u64(seed),
     };
-    let setup = Setup {
+    let setup = WedgeSetup {
         frame,
         radius: RADIUS,
         gravity: GRAVITY,
         slow: 0.0,
     };
-    let mut disk = DiskInWedge::new(setup, law, walls, 0.0, 1e-3, 0.01);
+    let start = Start {
+        time: 0.0,
+        height: 1e-3,
+        sideways: 0.01,
+    };
+    let mut disk = DiskInWedge::new(setup, law, walls, start);
     let mut turning = BatchMeans::new(0.1 * seconds, FIRST_BATCH);
     let advance = |disk: &mut DiskInWedge<_, _>, time: f64| {
         disk.advance_to(time)
@@ -104,11 +109,11 @@ fn run<L: CollisionLaw>(law: L, frame: Frame, seconds: f64, seed: u64) -> Result
     while turning.due() <= seconds {
         let due = turning.due();
         advance(&mut disk, due)?;
-        turning.record(disk.view(due).angle);
+        turning.record(disk.sample_at(due).angle);
     }
     advance(&mut disk, seconds)?;
     let scale = RADIUS / PEAK_VELOCITY;
-    let mean = scale * turning.mean(seconds, disk.view(seconds).angle);
+    let mean = scale * turning.mean(seconds, disk.sample_at(seconds).angle);
     println!("{mean:.9e},{:.9e}", scale * turning.standard_error());
     Ok(())
 }

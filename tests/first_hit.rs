@@ -173,7 +173,7 @@ fn cubic_case(random: &mut Uniform) -> (Case<FollowsInput>, f64) {
     let start = random.between(0.0, 10.0);
     let speed = random.logarithmic(1e-3, 1.0);
     let mut base = FollowsInput::uniform(start, random.between(-1e-3, 1e-3), random.between(-1.0, 1.0) * speed);
-    base.aim(
+    base.set_target(
         start,
         step,
         random.between(-1.0, 1.0) * speed * step,
@@ -271,7 +271,7 @@ fn chatter_keeps_its_digits() {
 fn delays_are_delays() {
     let sizes = [0.0, 1e-30, 1e-17, 1e-3, 1.0, 1e6].map(|size| [size, -size]).concat();
     let mut input = FollowsInput::uniform(0.0, 0.0, 0.0);
-    input.aim(0.0, 1e-3, 1e-5, 0.02);
+    input.set_target(0.0, 1e-3, 1e-5, 0.02);
     for amplitude in [1e-30, 1e-9, 1e-3, 1.0] {
         let sine = Sine {
             amplitude,

@@ -231,12 +231,12 @@ fn fields_are_what_brute_force_sampling_tends_to() {
         ratchet.advance_to(time, &values).unwrap();
         let window = (6.0 * 25.0 * time).floor().rem_euclid(6.0) as usize;
         for disk in 0..20 {
-            let ([x, y], [vx, vy], ..) = ratchet.engine().seen(disk, time);
-            let column = (x / 1e-3).floor().rem_euclid(6.0) as usize;
-            let row = ((y / 1e-3).floor() - lowest) as usize;
+            let motion = ratchet.engine().sample_at(time, disk);
+            let column = (motion.position.x / 1e-3).floor().rem_euclid(6.0) as usize;
+            let row = ((motion.position.y / 1e-3).floor() - lowest) as usize;
             let weight = MASS * interval / (seconds / 6.0);
             let sum = &mut sampled[(window * rows + row) * 6 + column];
-            for (index, amount) in [1.0, vx, vy].into_iter().enumerate() {
+            for (index, amount) in [1.0, motion.velocity.x, motion.velocity.y].into_iter().enumerate() {
                 sum[index] += weight * amount;
             }
         }
@@ -256,7 +256,7 @@ fn fields_are_what_brute_force_sampling_tends_to() {
     assert!(off[0] < 1e-3 * total && off[1] < 1e-3 * total * 0.3 && off[2] < 1e-3 * total);
 }
 
-/// Whoever looks on changes nothing, not a bit.
+/// An observer changes nothing, not a bit.
 #[test]
 fn an_observed_run_is_the_same_run() {
     let values = values_of::<RatchetOnSine>(CHOICE, &POSITIVE);

@@ -6,8 +6,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use jostle::collision::{CollisionLaw, Coulomb, Dashpot, TabulatedDashpot, VelocityFloor};
 use jostle::contact::LinearDashpot;
-use jostle::drive::{Drive, RandomPhase, Sine};
-use jostle::engine::wedge::{DiskInWedge, Frame, Moving, Resting, Setup, WallMotion};
+use jostle::drive::{AtRandomPhase, BaseMotion, RandomPhase, Sine};
+use jostle::engine::wedge::{DiskInWedge, Start, WedgeFrame, WedgeSetup};
 use jostle::measure::BatchMeans;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -23,17 +23,25 @@ const BASE: Sine = Sine {
 };
 const PEAK: f64 = 7.757e-5 * 80.0 * TAU;
 
-fn setup(aperture: f64, tilt: f64) -> Setup {
-    Setup {
-        frame: Frame::new(aperture, tilt),
+fn setup(aperture: f64, tilt: f64) -> WedgeSetup {
+    WedgeSetup {
+        frame: WedgeFrame::new(aperture, tilt),
         radius: RADIUS,
         gravity: GRAVITY,
         slow: 0.0,
     }
 }
 
-fn resting(seed: u64) -> Resting {
-    Resting {
+fn thrown(sideways: f64) -> Start {
+    Start {
+        time: 0.0,
+        height: 1e-3,
+        sideways,
+    }
+}
+
+fn resting(seed: u64) -> AtRandomPhase {
+    AtRandomPhase {
         phase: RandomPhase { peak_velocity: PEAK },
         generator: Pcg64::seed_from_u64(seed),
     }
@@ -114,7 +122,7 @@ fn the_map_is_the_random_phase_process() {
         (2.9, 0.06, 0.7, 1.0),
     ] {
         let law = dashpot(restitution, kappa, 0.1);
-        let mut disk = DiskInWedge::new(setup(aperture, tilt), law, resting(7), 0.0, 1e-3, 0.02);
+        let mut disk = DiskInWedge::new(setup(aperture, tilt), law, resting(7), thrown(0.02));
         let mut generator = Pcg64::seed_from_u64(7);
         let phase = RandomPhase { peak_velocity: PEAK };
         let mut plain = Plain::new(tilt, 1e-3, 0.02);
@@ -149,20 +157,20 @@ fn the_map_is_the_random_phase_process() {
             plain.bounce(angles[wall], base, &law);
             last = wall;
             disk.next_impact().unwrap();
-            let view = disk.view(disk.state().time);
+            let motion = disk.sample_at(disk.state().time);
             let shift = RADIUS / (0.5 * aperture).sin();
-            for (seen, expected) in [
-                (view.place[0] + shift * tilt.sin(), plain.position[0]),
-                (view.place[1] - shift * tilt.cos(), plain.position[1]),
-                (view.velocity[0] * 1e-3, plain.velocity[0] * 1e-3),
-                (view.velocity[1] * 1e-3, plain.velocity[1] * 1e-3),
-                (view.angular_velocity * 1e-5, plain.angular_velocity * 1e-5),
-                (view.angle * 1e-3, plain.angle * 1e-3),
+            for (found, expected) in [
+                (motion.position.x + shift * tilt.sin(), plain.position[0]),
+                (motion.position.y - shift * tilt.cos(), plain.position[1]),
+                (motion.velocity.x * 1e-3, plain.velocity[0] * 1e-3),
+                (motion.velocity.y * 1e-3, plain.velocity[1] * 1e-3),
+                (motion.angular_velocity * 1e-5, plain.angular_velocity * 1e-5),
+                (motion.angle * 1e-3, plain.angle * 1e-3),
                 (disk.state().time * 1e-2, plain.time * 1e-2),
             ] {
                 assert!(
-                    (seen - expected).abs() < 1e-9,
-                    "impact {impact}: {seen} for {expected}, tilt {tilt}"
+                    (found - expected).abs() < 1e-9,
+                    "impact {impact}: {found} for {expected}, tilt {tilt}"
                 );
             }
         }
@@ -175,7 +183,7 @@ fn the_moving_wedge_is_what_brute_force_finds() {
     for (tilt, phase) in [(0.17, 0.0), (-0.35, 1.0), (0.05, 4.0)] {
         let base = Sine { phase, ..BASE };
         let law = dashpot(0.9, 0.773, 0.1);
-        let mut disk = DiskInWedge::new(setup(APERTURE, tilt), law, Moving(base), 0.0, 1e-3, 0.02);
+        let mut disk = DiskInWedge::new(setup(APERTURE, tilt), law, base, thrown(0.02));
         let mut plain = Plain::new(tilt, 1e-3, 0.02);
         // The engine's start counts from where the wedge is.
         plain.position[1] += base.motion(0.0).displacement;
@@ -205,35 +213,35 @@ fn the_moving_wedge_is_what_brute_force_finds() {
             plain = plain.at(low);
             plain.bounce(angles[wall], base.motion(plain.time).velocity, &law);
             disk.next_impact().unwrap();
-            let view = disk.view(disk.state().time);
-            let error = (view.velocity[0] - plain.velocity[0]).hypot(view.velocity[1] - plain.velocity[1]);
+            let motion = disk.sample_at(disk.state().time);
+            let error = (motion.velocity.x - plain.velocity[0]).hypot(motion.velocity.y - plain.velocity[1]);
             assert!(
                 (disk.state().time - plain.time).abs() < 1e-10 && error < 1e-8 * PEAK.max(1.0),
                 "impact {impact}: {} for {}, velocity off by {error:e}",
                 disk.state().time,
                 plain.time
             );
-            assert!((view.angular_velocity - plain.angular_velocity).abs() < 1e-6);
+            assert!((motion.angular_velocity - plain.angular_velocity).abs() < 1e-6);
         }
     }
 }
 
 /// Energy per mass of the disk at `time`.
-fn energy<L: CollisionLaw, B: WallMotion>(disk: &DiskInWedge<L, B>, time: f64) -> f64 {
-    let view = disk.view(time);
-    let ([vx, vy], rim) = (view.velocity, RADIUS * view.angular_velocity);
-    0.5 * (vx * vx + vy * vy + 0.5 * rim * rim) + GRAVITY * view.place[1]
+fn energy<L: CollisionLaw, B: BaseMotion>(disk: &DiskInWedge<L, B>, time: f64) -> f64 {
+    let motion = disk.sample_at(time);
+    let rim = RADIUS * motion.angular_velocity;
+    0.5 * (motion.velocity.norm_squared() + 0.5 * rim * rim) + GRAVITY * motion.position.y
 }
 
-fn balance<L: CollisionLaw, B: WallMotion>(mut disk: DiskInWedge<L, B>) {
-    let (start, rise) = (energy(&disk, 0.0), disk.view(0.0).velocity[1]);
+fn balance<L: CollisionLaw, B: BaseMotion>(mut disk: DiskInWedge<L, B>) {
+    let (start, rise) = (energy(&disk, 0.0), disk.sample_at(0.0).velocity.y);
     let time = 200.0;
     disk.advance_to(time).unwrap();
     let sums = disk.state().sums;
     assert!(sums.collisions > 5_000 && sums.lost > 0.0);
     let energy_error = energy(&disk, time) - start - sums.input + sums.lost;
     assert!(energy_error.abs() < 1e-11 * sums.lost, "energy {energy_error:e}");
-    let pushed = disk.view(time).velocity[1] - rise + GRAVITY * time;
+    let pushed = disk.sample_at(time).velocity.y - rise + GRAVITY * time;
     assert!((sums.velocity / pushed - 1.0).abs() < 1e-11, "momentum");
 }
 
@@ -243,12 +251,10 @@ fn energy_and_momentum_balance_to_rounding() {
         setup(APERTURE, 0.2),
         tabulated(0.9, 0.773, 0.1),
         resting(1),
-        0.0,
-        1e-3,
-        0.02,
+        thrown(0.02),
     ));
     let floored = VelocityFloor::new(tabulated(0.7, 0.773, 0.1), 1e-4).unwrap();
-    let moving = DiskInWedge::new(setup(1.3, 0.2), floored, Moving(BASE), 0.0, 1e-3, 0.02);
+    let moving = DiskInWedge::new(setup(1.3, 0.2), floored, BASE, thrown(0.02));
     balance(moving);
 }
 
@@ -257,11 +263,11 @@ fn energy_and_momentum_balance_to_rounding() {
 fn mirrored_wedges_turn_oppositely_to_the_last_bit() {
     let map = |tilt: f64, sideways: f64| {
         let law = tabulated(0.9, 0.773, 0.1);
-        DiskInWedge::new(setup(APERTURE, tilt), law, resting(3), 0.0, 1e-3, sideways)
+        DiskInWedge::new(setup(APERTURE, tilt), law, resting(3), thrown(sideways))
     };
     let moving = |tilt: f64, sideways: f64| {
         let law = tabulated(0.9, 0.773, 0.1);
-        DiskInWedge::new(setup(APERTURE, tilt), law, Moving(BASE), 0.0, 1e-3, sideways)
+        DiskInWedge::new(setup(APERTURE, tilt), law, BASE, thrown(sideways))
     };
     let (mut disk, mut image) = (map(0.3, 0.02), map(-0.3, -0.02));
     let (mut shaken, mut shaken_image) = (moving(0.3, 0.02), moving(-0.3, -0.02));
@@ -271,40 +277,43 @@ fn mirrored_wedges_turn_oppositely_to_the_last_bit() {
         image.advance_to(time).unwrap();
         shaken.advance_to(time).unwrap();
         shaken_image.advance_to(time).unwrap();
-        for (view, mirror) in [
-            (disk.view(time), image.view(time)),
-            (shaken.view(time), shaken_image.view(time)),
+        for (motion, mirror) in [
+            (disk.sample_at(time), image.sample_at(time)),
+            (shaken.sample_at(time), shaken_image.sample_at(time)),
         ] {
-            assert_eq!([view.place[0], view.place[1]], [-mirror.place[0], mirror.place[1]]);
             assert_eq!(
-                (view.angle, view.angular_velocity),
+                [motion.position.x, motion.position.y],
+                [-mirror.position.x, mirror.position.y]
+            );
+            assert_eq!(
+                (motion.angle, motion.angular_velocity),
                 (-mirror.angle, -mirror.angular_velocity)
             );
         }
     }
-    assert!(disk.view(100.0).angle.abs() > 1.0);
+    assert!(disk.sample_at(100.0).angle.abs() > 1.0);
 }
 
 /// Scaled mean angular velocity with its standard error.
 fn turning<L: CollisionLaw>(aperture: f64, tilt: f64, law: L, seconds: f64) -> (f64, f64) {
-    let mut disk = DiskInWedge::new(setup(aperture, tilt), law, resting(11), 0.0, 1e-3, 0.01);
+    let mut disk = DiskInWedge::new(setup(aperture, tilt), law, resting(11), thrown(0.01));
     let mut batches = BatchMeans::new(5.0, 0.1);
     while batches.due() <= seconds {
         let due = batches.due();
         disk.advance_to(due).unwrap();
-        batches.record(disk.view(due).angle);
+        batches.record(disk.sample_at(due).angle);
     }
     disk.advance_to(seconds).unwrap();
     let scale = RADIUS / PEAK;
     (
-        scale * batches.mean(seconds, disk.view(seconds).angle),
+        scale * batches.mean(seconds, disk.sample_at(seconds).angle),
         scale * batches.standard_error(),
     )
 }
 
-/// P Fig 6.9: with a stiff skin e_t = max(0, 1 - 3 mu (1 + e_n) |u_n / u_t|), which is Coulomb's law.
+/// P Fig 6.9: with a stiff tangential spring e_t = max(0, 1 - 3 mu (1 + e_n) |u_n / u_t|), which is Coulomb's law.
 #[test]
-fn a_stiff_skin_is_coulombs_law() {
+fn a_stiff_tangential_spring_gives_coulomb_friction() {
     let seconds = 4000.0;
     for tilt in [0.15_f64, 0.42] {
         let soft = turning(APERTURE, tilt, tabulated(0.9, 0.773, 0.1), seconds);
@@ -322,8 +331,8 @@ fn a_stiff_skin_is_coulombs_law() {
 fn a_flat_wedge_does_not_turn_the_disk() {
     let law = || tabulated(0.9, 0.773, 0.1);
     let flat = 179_f64.to_radians();
-    let (mean, error) = turning(flat, 0.3 * Frame::critical_tilt(flat), law(), 8000.0);
-    let (steep, _) = turning(APERTURE, 0.3 * Frame::critical_tilt(APERTURE), law(), 2000.0);
+    let (mean, error) = turning(flat, 0.3 * WedgeFrame::critical_tilt(flat), law(), 8000.0);
+    let (steep, _) = turning(APERTURE, 0.3 * WedgeFrame::critical_tilt(APERTURE), law(), 2000.0);
     println!("flat {mean} +- {error}, at 120 degrees {steep}");
     assert!(mean.abs() < 0.01 * steep && error < 1e-3 * steep);
 }
@@ -331,27 +340,27 @@ fn a_flat_wedge_does_not_turn_the_disk() {
 /// Walls within a billionth of horizontal, exactly vertical, and hanging over: the disk stays inside.
 #[test]
 fn no_wall_is_a_singular_case() {
-    let critical = Frame::critical_tilt(1.2);
+    let critical = WedgeFrame::critical_tilt(1.2);
     for (aperture, tilt) in [
-        (APERTURE, Frame::critical_tilt(APERTURE) - 1e-9),
+        (APERTURE, WedgeFrame::critical_tilt(APERTURE) - 1e-9),
         (1.2, FRAC_PI_2 - critical),
         (1.2, 0.9 * critical),
-        (1.05, -0.99 * Frame::critical_tilt(1.05)),
+        (1.05, -0.99 * WedgeFrame::critical_tilt(1.05)),
         (3.139, 0.0),
     ] {
         let setup = setup(aperture, tilt);
         let law = tabulated(0.9, 0.773, 0.1);
-        let mut disk = DiskInWedge::new(setup, law.clone(), resting(5), 0.0, 1e-3, 0.02);
+        let mut disk = DiskInWedge::new(setup, law.clone(), resting(5), thrown(0.02));
         let floored = VelocityFloor::new(law, 1e-4).unwrap();
-        let mut moving = DiskInWedge::new(setup, floored, Moving(BASE), 0.0, 1e-3, 0.02);
+        let mut moving = DiskInWedge::new(setup, floored, BASE, thrown(0.02));
         for step in 1..=2000 {
             let time = f64::from(step) * 0.02;
             disk.advance_to(time).unwrap();
             moving.advance_to(time).unwrap();
             let lift = moving.base(time).displacement;
-            for (view, lift) in [(disk.view(time), 0.0), (moving.view(time), lift)] {
+            for (motion, lift) in [(disk.sample_at(time), 0.0), (moving.sample_at(time), lift)] {
                 for angle in wall_angles(aperture, tilt) {
-                    let distance = -angle.sin() * view.place[0] + angle.cos() * (view.place[1] - lift);
+                    let distance = -angle.sin() * motion.position.x + angle.cos() * (motion.position.y - lift);
                     assert!(
                         distance > RADIUS * (1.0 - 1e-9),
                         "aperture {aperture}, tilt {tilt}, t {time}: {distance}"
@@ -368,22 +377,27 @@ fn runs_collapse_when_scaled() {
     let scaled = |gamma: f64, angular_frequency: f64| {
         let peak = gamma * GRAVITY / angular_frequency;
         let (length, unit) = (peak * peak / GRAVITY, peak / GRAVITY);
-        let walls = Resting {
+        let walls = AtRandomPhase {
             phase: RandomPhase { peak_velocity: peak },
             generator: Pcg64::seed_from_u64(2),
         };
         let law = tabulated(0.9, 0.773, 0.1);
-        let mut disk = DiskInWedge::new(setup(APERTURE, 0.2), law, walls, 0.0, length, 0.3 * peak);
+        let start = Start {
+            time: 0.0,
+            height: length,
+            sideways: 0.3 * peak,
+        };
+        let mut disk = DiskInWedge::new(setup(APERTURE, 0.2), law, walls, start);
         disk.advance_to(60.0 * unit).unwrap();
-        (disk.state().sums.collisions, disk.state().rim_way / length)
+        (disk.state().sums.collisions, disk.state().arc_length / length)
     };
-    let (count, way) = scaled(1.0, 1.0);
+    let (count, arc_length) = scaled(1.0, 1.0);
     assert!(count > 10);
     for (gamma, angular_frequency) in [(1.0, 10.0), (1.0, 100.0), (10.0, 1.0), (100.0, 100.0), (10.0, 1000.0)] {
         let (other, turned) = scaled(gamma, angular_frequency);
         assert!(
-            other == count && (turned / way - 1.0).abs() < 1e-6,
-            "{turned} for {way}"
+            other == count && (turned / arc_length - 1.0).abs() < 1e-6,
+            "{turned} for {arc_length}"
         );
     }
 }

@@ -135,7 +135,7 @@ impl Fields {
     fn write_fields(&self, fields: &FlowFields, end: f64) -> Result<(), Failure> {
         let header = ["phase", "x", "y", "mass", "momentum_x", "momentum_y"];
         let rows = fields.cells(end).map(|cell| {
-            let [along, up] = cell.momentum;
+            let [along, up] = cell.momentum.into();
             let numbers = [cell.x, cell.y, cell.mass, along, up].map(text::number);
             std::iter::once(cell.phase.to_string()).chain(numbers).collect()
         });

@@ -1,5 +1,6 @@
 //! What advances time.
 
+mod disk_motion;
 pub mod event_driven;
 pub mod located_dynamics;
 pub mod molecular_dynamics;
@@ -7,4 +8,5 @@ pub mod three_disk;
 pub mod wedge;
 pub mod work;
 
+pub use disk_motion::DiskMotion;
 pub use work::{MOST_WORK_IN_A_CALL, Work};

@@ -70,7 +70,7 @@ impl BaseDrive for FollowsInput {
     }
 
     fn aim(&mut self, time: f64, duration: f64, values: &Values) {
-        Self::aim(
+        Self::set_target(
             self,
             time,
             duration,

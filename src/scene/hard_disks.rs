@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::drive::{Drive, FollowsInput, Sine};
+use crate::engine::DiskMotion;
 use crate::engine::event_driven::{Counts, Moving, VibratingBase};
 use crate::error::{Result, are_sane};
 
@@ -104,13 +105,13 @@ pub struct Energies {
 }
 
 impl Energies {
-    /// Of disks that are `seen` so: radius, place, velocity, angular velocity.
-    pub fn of(matter: Matter<'_>, seen: impl Iterator<Item = (f64, [f64; 2], [f64; 2], f64)>) -> Self {
+    /// Of disks by their radii \[m\] and motions.
+    pub fn of(matter: Matter<'_>, disks: impl Iterator<Item = (f64, DiskMotion)>) -> Self {
         let mut energies = Self::default();
-        for (mass, (radius, [_, y], [vx, vy], angular_velocity)) in matter.masses.iter().zip(seen) {
-            let rim = radius * angular_velocity;
-            energies.kinetic += 0.5 * mass * (vx * vx + vy * vy + matter.inertia_factor * rim * rim);
-            energies.potential += mass * matter.gravity * y;
+        for (mass, (radius, motion)) in matter.masses.iter().zip(disks) {
+            let rim = radius * motion.angular_velocity;
+            energies.kinetic += 0.5 * mass * (motion.velocity.norm_squared() + matter.inertia_factor * rim * rim);
+            energies.potential += mass * matter.gravity * motion.position.y;
         }
         energies
     }

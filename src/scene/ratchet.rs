@@ -9,13 +9,14 @@ mod start;
 use serde::{Deserialize, Serialize};
 
 use crate::collision::{Coulomb, VelocityFloor};
-use crate::drive::{BoundedDrive, FollowsInput, Sine};
+use crate::drive::{BaseMotion, BoundedDrive, FollowsInput, Sine};
 use crate::engine::event_driven::{
-    EventDriven, Gravity, Moving, Observer, Partner, PeriodicAcross, Sawtooth, Settings, State, Stop, Unobserved,
-    VibratingBase,
+    EventDriven, EventDrivenState, Model, Moving, Observer, Partner, PeriodicAcross, Region, Sawtooth, Settings, Stop,
+    Unobserved, VibratingBase,
 };
 use crate::engine::{MOST_WORK_IN_A_CALL, Work};
 use crate::error::{Error, Result, are_sane};
+use crate::geometry::Vector2;
 use crate::measure::Transport;
 
 use super::base_drive::BaseDrive;
@@ -31,7 +32,7 @@ pub type RatchetOnInput = Ratchet<FollowsInput>;
 pub type RatchetOnSine = Ratchet<Sine>;
 
 /// Engine of the ratchet with drive D.
-pub type RatchetEngine<D> = EventDriven<VelocityFloor<Coulomb>, Sawtooth<D>, Gravity, PeriodicAcross>;
+pub type RatchetEngine<D> = EventDriven<VelocityFloor<Coulomb>, Sawtooth<D>, PeriodicAcross>;
 
 const NAME: &str = "ratchet";
 
@@ -62,7 +63,7 @@ pub struct Ratchet<D: BoundedDrive> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RatchetState<B> {
     /// The engine's.
-    pub engine: State<B>,
+    pub engine: EventDrivenState<B>,
     /// The last communication step.
     pub report: Report,
     /// Running averages.
@@ -94,11 +95,9 @@ where
             gravity: self.gravity,
             inertia_factor: self.inertia_factor,
         };
-        let seen = self.engine.state().bodies.iter().enumerate().map(|(disk, body)| {
-            let (place, velocity, _, angular_velocity) = self.engine.seen(disk, self.report.time);
-            (body.radius, place, velocity, angular_velocity)
-        });
-        Energies::of(matter, seen)
+        let bodies = self.engine.state().bodies.iter().enumerate();
+        let disks = bodies.map(|(disk, body)| (body.radius, self.engine.sample_at(self.report.time, disk)));
+        Energies::of(matter, disks)
     }
 
     /// As [`Scene::advance_to`], to the bit, and shows the flights of the disks.
@@ -137,7 +136,7 @@ where
                 return Err(impossible(from, acceleration, base.farthest, self.headroom));
             }
             let change = |boundary: &mut Sawtooth<D>| boundary.set_base(base);
-            self.engine.change_boundary_observed(from, change, observer);
+            self.engine.change_boundary(from, observer, change);
         }
         let mut work = Work::at_most(self.most_work);
         let mark = values.real("measure.mark");
@@ -148,7 +147,7 @@ where
         while self.averages.transport.due() <= end_time {
             let due = self.averages.transport.due();
             self.engine.advance_within(due, observer, &mut work).map_err(refusal)?;
-            let places = (0..self.masses.len()).map(|disk| self.engine.seen(disk, due).0[0]);
+            let places = (0..self.masses.len()).map(|disk| self.engine.sample_at(due, disk).position.x);
             let input = self.engine.state().counts.energy_input;
             self.averages.transport.record(places, input);
         }
@@ -162,8 +161,9 @@ where
         let state = self.engine.state();
         let (counts, base) = (&state.counts, state.boundary.base().motion(time));
         let disks_hold = (0..self.masses.len()).all(|disk| {
-            let (place, velocity, angle, angular_velocity) = self.engine.seen(disk, time);
-            are_sane(place) && are_sane(velocity) && are_sane([angle, angular_velocity])
+            let motion = self.engine.sample_at(time, disk);
+            are_sane(motion.position.iter().chain(&motion.velocity).copied())
+                && are_sane([motion.angle, motion.angular_velocity])
         });
         disks_hold
             && are_sane([counts.energy_lost, counts.energy_input, counts.base_impulse])
@@ -192,8 +192,8 @@ fn refusal(stop: Stop) -> Error {
             return Error::too_much_work(NAME, time, format!("more than {most} events"));
         }
     };
-    let disk = stop.last.0 + 1;
-    let partner = match stop.last.1 {
+    let disk = stop.disk + 1;
+    let partner = match stop.partner {
         Partner::Disk(other) => format!("disk {}", other + 1),
         Partner::Wall(0) => "the base".into(),
         Partner::Wall(_) => "the ceiling".into(),
@@ -204,7 +204,7 @@ fn refusal(stop: Stop) -> Error {
         time: stop.time,
         what: format!(
             "no headway: {} events in {:e} s, the last of disk {disk} with {partner}",
-            stop.events, stop.took
+            stop.events, stop.duration
         ),
         remedy: "Inelastic collapse? Raise collision.minimum_normal_velocity or collision.restitution.".into(),
     }
@@ -290,13 +290,12 @@ where
                 "Raise the ceiling or move the base less.",
             ));
         }
-        let space = PeriodicAcross {
-            width: start::cell_width(values),
-            bottom: -base.farthest(),
-            height: profile.top()
-                + base.farthest()
-                + (REGION_ROWS + 2.0 * start::layers(disks.len(), values)) * radius_max,
-        };
+        let height =
+            profile.top() + base.farthest() + (REGION_ROWS + 2.0 * start::layers(disks.len(), values)) * radius_max;
+        let space = PeriodicAcross(Region {
+            corner: Vector2::new(0.0, -base.farthest()),
+            size: Vector2::new(start::cell_width(values), height),
+        });
         let boundary = Sawtooth::new(profile, base, ceiling, start_time);
         let gravity = values.real("gravity");
         let inertia_factor = values.real("disk.inertia_factor");
@@ -305,8 +304,13 @@ where
             start_time,
             inertia_factor,
         };
-        let types = (law, boundary, Gravity(gravity), space);
-        let engine = EventDriven::new(types, &disks, &masses, &vec![[0.0; 3]; disks.len()], settings);
+        let model = Model {
+            law,
+            boundary,
+            gravity,
+            space,
+        };
+        let engine = EventDriven::new(model, &disks, &masses, &vec![[0.0; 3]; disks.len()], settings);
         let mut ratchet = Self {
             engine,
             layers: start::layers(disks.len(), values),
@@ -336,23 +340,26 @@ where
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
         let time = self.report.time;
         let state = self.engine.state();
-        let seen: Vec<_> = (0..self.masses.len())
-            .map(|disk| self.engine.seen(disk, time))
+        let disks: Vec<_> = (0..self.masses.len())
+            .map(|disk| self.engine.sample_at(time, disk))
             .collect();
-        let count = seen.len() as f64;
+        let count = disks.len() as f64;
         let (counts, base) = (&state.counts, state.boundary.base().motion(time));
         let ceiling_hits = state.boundary.ceiling_hits();
-        let places = seen.iter().map(|disk| disk.0[0]);
+        let places = disks.iter().map(|disk| disk.position.x);
         let told = self.averages.transport.told(time, places, counts.energy_input);
         outputs.real("layers", self.layers);
         outputs.reals("disk.radius", state.bodies.iter().map(|body| body.radius));
-        outputs.real("mean_velocity", seen.iter().map(|disk| disk.1[0]).sum::<f64>() / count);
+        outputs.real(
+            "mean_velocity",
+            disks.iter().map(|disk| disk.velocity.x).sum::<f64>() / count,
+        );
         outputs.real("transport_velocity", told.velocity);
         outputs.real("transport_velocity.standard_error", told.standard_error);
         outputs.real("transport_velocity.spread", told.spread);
         outputs.real(
             "mean_angular_velocity",
-            seen.iter().map(|disk| disk.3).sum::<f64>() / count,
+            disks.iter().map(|disk| disk.angular_velocity).sum::<f64>() / count,
         );
         outputs.real("base.reaction_force", self.report.reaction_force);
         outputs.real("base.position", base.displacement);
@@ -363,9 +370,9 @@ where
         outputs.real("collisions.disks", counts.disk_impacts as f64);
         outputs.real("collisions.base", (counts.wall_impacts - ceiling_hits) as f64);
         outputs.real("collisions.ceiling", ceiling_hits as f64);
-        outputs.reals("disk.angle", seen.iter().map(|disk| disk.2));
-        outputs.reals("disk.x", seen.iter().map(|disk| disk.0[0]));
-        outputs.reals("disk.y", seen.iter().map(|disk| disk.0[1]));
+        outputs.reals("disk.angle", disks.iter().map(|disk| disk.angle));
+        outputs.reals("disk.x", disks.iter().map(|disk| disk.position.x));
+        outputs.reals("disk.y", disks.iter().map(|disk| disk.position.y));
         outputs.finish();
     }
 

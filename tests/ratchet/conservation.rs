@@ -3,7 +3,7 @@
 use super::*;
 
 /// Elastic smooth disks under gravity on a base at rest.
-fn elastic(height: f64) -> EventDriven<Smooth, Sawtooth<Sine>, Gravity, PeriodicAcross> {
+fn elastic(height: f64) -> EventDriven<Smooth, Sawtooth<Sine>, PeriodicAcross> {
     let at_rest = Sine {
         amplitude: 0.0,
         frequency: 25.0,
@@ -15,11 +15,6 @@ fn elastic(height: f64) -> EventDriven<Smooth, Sawtooth<Sine>, Gravity, Periodic
     };
     let profile = SawtoothProfile::new(6e-3, height, 0.2, 4e-4).unwrap();
     let boundary = Sawtooth::new(profile, base, 0.6, 0.0);
-    let space = PeriodicAcross {
-        width: 60e-3,
-        bottom: 0.0,
-        height: 60e-3,
-    };
     let disks: Vec<Disk> = (0..40)
         .map(|index| Disk {
             x: 5e-3 * (f64::from(index % 12) + 0.5),
@@ -36,8 +31,13 @@ fn elastic(height: f64) -> EventDriven<Smooth, Sawtooth<Sine>, Gravity, Periodic
             ]
         })
         .collect();
-    let types = (Smooth::ELASTIC, boundary, Gravity(9.81), space);
-    EventDriven::new(types, &disks, &[1.0; 40], &velocities, Settings::default())
+    let model = Model {
+        law: Smooth::ELASTIC,
+        boundary,
+        gravity: 9.81,
+        space: cell(),
+    };
+    EventDriven::new(model, &disks, &[1.0; 40], &velocities, Settings::default())
 }
 
 /// Energy stays on any base at rest, and horizontal momentum on a flat one, over some 100,000 impacts.
@@ -45,10 +45,11 @@ fn elastic(height: f64) -> EventDriven<Smooth, Sawtooth<Sine>, Gravity, Periodic
 fn elastic_smooth_disks_keep_energy_and_momentum() {
     for height in [0.0, 6e-3] {
         let mut disks = elastic(height);
-        let sums = |disks: &EventDriven<Smooth, Sawtooth<Sine>, Gravity, PeriodicAcross>, time: f64| {
+        let sums = |disks: &EventDriven<Smooth, Sawtooth<Sine>, PeriodicAcross>, time: f64| {
             (0..40).fold((0.0, 0.0), |(energy, momentum), disk| {
-                let ([_, y], [vx, vy], _, _) = disks.seen(disk, time);
-                (energy + 0.5 * (vx * vx + vy * vy) + 9.81 * y, momentum + vx)
+                let motion = disks.sample_at(time, disk);
+                let energy = energy + 0.5 * motion.velocity.norm_squared() + 9.81 * motion.position.y;
+                (energy, momentum + motion.velocity.x)
             })
         };
         let (energy, momentum) = sums(&disks, 0.0);
@@ -71,11 +72,6 @@ fn mirrored_teeth_give_mirrored_motion() {
         frequency: 25.0,
         phase: 0.3,
     };
-    let space = PeriodicAcross {
-        width: 60e-3,
-        bottom: 0.0,
-        height: 60e-3,
-    };
     let [mut plain, mut mirrored] = [false, true].map(|mirror| {
         let asymmetry = if mirror { 0.8 } else { 0.2 };
         let profile = SawtoothProfile::new(6e-3, 6e-3, asymmetry, 4e-4).unwrap();
@@ -95,8 +91,13 @@ fn mirrored_teeth_give_mirrored_motion() {
             .map(|index| [sign * 0.2 * f64::from(index).sin(), 0.1, sign * 30.0])
             .collect();
         let law = VelocityFloor::new(Coulomb::new(0.8, 0.1).unwrap(), 5e-3).unwrap();
-        let types = (law, boundary, Gravity(9.81), space);
-        EventDriven::new(types, &disks, &[1e-5; 12], &velocities, Settings::default())
+        let model = Model {
+            law,
+            boundary,
+            gravity: 9.81,
+            space: cell(),
+        };
+        EventDriven::new(model, &disks, &[1e-5; 12], &velocities, Settings::default())
     });
     let time = 0.25;
     plain.advance_to(time).unwrap();
@@ -106,14 +107,13 @@ fn mirrored_teeth_give_mirrored_motion() {
     assert!((one.disk_impacts, one.wall_impacts) == (two.disk_impacts, two.wall_impacts));
     let mut off: f64 = 0.0;
     for disk in 0..12 {
-        let (place, velocity, angle, _) = plain.seen(disk, time);
-        let (image, image_velocity, image_angle, _) = mirrored.seen(disk, time);
+        let (one, image) = (plain.sample_at(time, disk), mirrored.sample_at(time, disk));
         off = off
-            .max((place[0] + image[0] - 60e-3).abs())
-            .max((place[1] - image[1]).abs());
+            .max((one.position.x + image.position.x - 60e-3).abs())
+            .max((one.position.y - image.position.y).abs());
         off = off
-            .max((velocity[0] + image_velocity[0]).abs())
-            .max(1e-3 * (angle + image_angle).abs());
+            .max((one.velocity.x + image.velocity.x).abs())
+            .max(1e-3 * (one.angle + image.angle).abs());
     }
     println!(
         "{} and {} impacts, images off by {off:.1e}",

@@ -3,23 +3,28 @@
 use super::transport::POSITIVE;
 use super::*;
 
-/// Deepest penetration into the base and deepest overlap of two disks [m], now and, for the base, where each disk last
-/// met something.
+/// Deepest penetration into the base and deepest overlap of two disks [m], now and, for the base, at the last event of each
+/// disk.
 fn depths(ratchet: &RatchetOnSine, profile: &Profile, time: f64, count: usize, width: f64) -> [f64; 2] {
     let state = ratchet.engine().state();
     let base_at = |local: f64| state.boundary.local_motion(local).displacement;
     let base = base_at(time - state.epoch);
-    let seen: Vec<[f64; 2]> = (0..count).map(|disk| ratchet.engine().seen(disk, time).0).collect();
+    let positions: Vec<[f64; 2]> = (0..count)
+        .map(|disk| ratchet.engine().sample_at(time, disk).position.into())
+        .collect();
     let radius = |disk: usize| ratchet.engine().state().bodies[disk].radius;
     let (mut into_base, mut into_disk) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
     for i in 0..count {
-        let [x, y] = seen[i];
+        let [x, y] = positions[i];
         assert!(y - base > 0.0 && y + radius(i) < 0.6 + 1e-9, "disk {i} lost at {x} {y}");
         into_base = f64::max(into_base, radius(i) - profile.distance(x, y - base));
         let last = &state.bodies[i];
         let lift = base_at(last.time);
-        into_base = f64::max(into_base, last.radius - profile.distance(last.x, last.y - lift));
-        for (j, other) in seen[..i].iter().enumerate() {
+        into_base = f64::max(
+            into_base,
+            last.radius - profile.distance(last.position.x, last.position.y - lift),
+        );
+        for (j, other) in positions[..i].iter().enumerate() {
             let apart = (x - other[0]).rem_euclid(width);
             let distance = apart.min(width - apart).hypot(y - other[1]);
             into_disk = f64::max(into_disk, radius(i) + radius(j) - distance);
@@ -91,7 +96,7 @@ fn nothing_penetrates_in(events: u64, tip: f64) {
         deepest = [deepest[0].max(now[0]), deepest[1].max(now[1])];
         let counts = &ratchet.engine().state().counts;
         let impacts = counts.disk_impacts + counts.wall_impacts;
-        let done = impacts + counts.listings + counts.stale;
+        let done = impacts + counts.list_renewals + counts.stale;
         if done / 100_000_000 > told || done >= events {
             told = done / 100_000_000;
             println!(
@@ -152,7 +157,7 @@ fn a_base_on_inputs_is_hard_and_moves_disks() {
             .motion(time + step)
             .displacement;
         for disk in 0..20 {
-            let [x, y] = ratchet.engine().seen(disk, time + step).0;
+            let [x, y] = ratchet.engine().sample_at(time + step, disk).position.into();
             let radius = ratchet.engine().state().bodies[disk].radius;
             assert!(profile.distance(x, y - base) > radius - 1e-9);
         }

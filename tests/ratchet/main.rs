@@ -10,8 +10,8 @@ mod transport;
 
 use jostle::collision::{Coulomb, Smooth, VelocityFloor};
 use jostle::drive::{Drive, Sine};
-use jostle::engine::event_driven::{EventDriven, Gravity, Moving, PeriodicAcross, Sawtooth, Settings};
-use jostle::geometry::{Disk, SawtoothProfile};
+use jostle::engine::event_driven::{EventDriven, Model, Moving, PeriodicAcross, Region, Sawtooth, Settings};
+use jostle::geometry::{Disk, SawtoothProfile, Vector2};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
 use jostle::scene::{Choice, Scene, Value, Values};
 use support::sawtooth_distance::Profile;
@@ -21,6 +21,14 @@ const DEFAULT: Choice = Choice { disks: 20 };
 
 fn sine_values(choice: Choice, changes: &[(&str, f64)]) -> Values {
     values_of::<RatchetOnSine>(choice, changes)
+}
+
+/// A cell of the width of ten teeth.
+fn cell() -> PeriodicAcross {
+    PeriodicAcross(Region {
+        corner: Vector2::zeros(),
+        size: Vector2::new(60e-3, 60e-3),
+    })
 }
 
 /// The base as inputs give it at `time` \[s\]: 2 mm at 25 Hz.

@@ -3,9 +3,9 @@
 use jostle::collision::Dashpot;
 use jostle::contact::{ElasticSkin, LinearDashpot};
 use jostle::drive::Sine;
-use jostle::engine::event_driven::{EventDriven, Gravity, Moving, Open, Settings, Walls};
+use jostle::engine::event_driven::{EventDriven, Model, Moving, Open, Region, Settings, Walls};
 use jostle::engine::molecular_dynamics::{ContactLaws, MolecularDynamics, Setup, TimeStepLimits, VelocityVerlet};
-use jostle::geometry::{Disk, Wall};
+use jostle::geometry::{Disk, Vector2, Wall};
 
 const DISKS: [Disk; 4] = [
     Disk {
@@ -60,18 +60,23 @@ fn hard(stiffness: f64, damping: f64) -> Vec<[f64; 3]> {
         base,
         origin: 0.0,
     };
-    let space = Open {
-        corner: [-0.08, 0.0],
-        size: [0.14, 0.3],
+    let space = Open(Region {
+        corner: Vector2::new(-0.08, 0.0),
+        size: Vector2::new(0.14, 0.3),
+    });
+    let model = Model {
+        law,
+        boundary,
+        gravity: 9.8,
+        space,
     };
-    let types = (law, boundary, Gravity(9.8), space);
-    let mut engine = EventDriven::new(types, &DISKS, &masses(), &VELOCITIES, Settings::default());
+    let mut engine = EventDriven::new(model, &DISKS, &masses(), &VELOCITIES, Settings::default());
     engine.advance_to(END).unwrap();
     let counts = engine.state().counts;
     assert!(counts.disk_impacts >= 3 && counts.wall_impacts >= 4, "{counts:?}");
     (0..4)
-        .map(|disk| engine.seen(disk, END))
-        .map(|([x, y], _, angle, _)| [x, y, angle])
+        .map(|disk| engine.sample_at(END, disk))
+        .map(|motion| [motion.position.x, motion.position.y, motion.angle])
         .collect()
 }
 

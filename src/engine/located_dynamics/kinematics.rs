@@ -55,13 +55,13 @@ impl Disks<'_> {
         let radius = self.radii[disk];
         let lift = wall.follows_base * base.displacement;
         let vy = vy - wall.follows_base * base.velocity;
-        let ([nx, ny], [tx, ty]) = (wall.normal, wall.tangent());
+        let ([nx, ny], [tx, ty]) = (wall.normal.into(), wall.tangent().into());
         Kinematics {
-            overlap: radius - wall.distance(x, y, base.displacement),
+            overlap: radius - wall.distance([x, y], base.displacement),
             closing: -(nx * vx + ny * vy),
             surface: radius * angle + tx * x + ty * (y - lift),
             sliding: tx * vx + ty * vy + radius * spin,
-            normal: wall.normal,
+            normal: [nx, ny],
             turning: 0.0,
             lever: 1.0,
         }

@@ -39,7 +39,7 @@ impl Search {
         let base = state.searched_base;
         let near = |disk: usize, wall: &Wall| {
             let [x, y, _] = cloud.places[disk];
-            wall.distance(x, y, base) < radii[disk] + margin
+            wall.distance([x, y], base) < radii[disk] + margin
         };
         let at_walls = (0..radii.len()).flat_map(|disk| {
             let walls = walls.iter().enumerate().filter(move |(_, wall)| near(disk, wall));

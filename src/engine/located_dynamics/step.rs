@@ -296,14 +296,14 @@ fn pass_wall<const LAST: bool>(
         contact.kinematics
     };
     let frame = Carried {
-        normal: wall.normal,
+        normal: wall.normal.into(),
         follows_base: wall.follows_base,
         base: scenery.base,
         step: scenery.step,
     };
     let mobility = scenery.inverse_masses[disk][0];
     let push = pass::<LAST, _>(scenery, contact, (&start, &end), (&frame, mobility), slot, tally);
-    slot.after.direction = wall.normal;
+    slot.after.direction = wall.normal.into();
     Some(push)
 }
 

@@ -56,7 +56,7 @@ impl<I: Integrator, D: Drive> MolecularDynamics<I, D> {
         }
         for near in &state.at_walls {
             let [x, y, _] = places[near.disk as usize];
-            let distance = self.setup.walls[near.wall as usize].distance(x, y, state.base.displacement);
+            let distance = self.setup.walls[near.wall as usize].distance([x, y], state.base.displacement);
             let overlap = self.radii[near.disk as usize] - distance;
             elastic += laws.normal.energy(overlap.max(0.0)) + laws.skin.energy(near.skin.stretch);
         }

@@ -98,7 +98,7 @@ impl Neighbours {
         let mut old = at_walls.iter().filter(|near| near.skin.is_closed()).peekable();
         for (disk, (&[x, y, _], radius)) in cloud.places.iter().zip(cloud.radii).enumerate() {
             for (index, wall) in walls.iter().enumerate() {
-                if wall.distance(x, y, base_displacement) >= radius + cloud.margin {
+                if wall.distance([x, y], base_displacement) >= radius + cloud.margin {
                     continue;
                 }
                 let key = (disk as u32, index as u32);

@@ -53,8 +53,9 @@ impl<R: HardRun> HardPacking<R> {
     fn is_sane(&self, time: f64) -> bool {
         let (counts, base) = (self.run.counts(), self.run.base(time));
         let disks_hold = (0..self.radii.len()).all(|disk| {
-            let (place, velocity, angle, angular_velocity) = self.run.seen(disk, time);
-            are_sane(place) && are_sane(velocity) && are_sane([angle, angular_velocity])
+            let motion = self.run.sample_at(time, disk);
+            are_sane(motion.position.iter().chain(&motion.velocity).copied())
+                && are_sane([motion.angle, motion.angular_velocity])
         });
         disks_hold
             && are_sane([counts.energy_lost, counts.energy_input, counts.base_impulse])
@@ -67,11 +68,8 @@ impl<R: HardRun> HardPacking<R> {
             gravity: self.gravity,
             inertia_factor: 0.5,
         };
-        let seen = self.radii.iter().enumerate().map(|(disk, radius)| {
-            let (place, velocity, _, angular_velocity) = self.run.seen(disk, self.report.time);
-            (*radius, place, velocity, angular_velocity)
-        });
-        Energies::of(matter, seen)
+        let motions = (0..self.radii.len()).map(|disk| self.run.sample_at(self.report.time, disk));
+        Energies::of(matter, self.radii.iter().copied().zip(motions))
     }
 }
 
@@ -82,8 +80,8 @@ fn refusal(stop: Stop) -> Error {
             return Error::too_much_work(NAME, time, format!("more than {most} events"));
         }
     };
-    let (disk, partner) = (stop.last.0 + 1, stop.last.1);
-    let partner = match partner {
+    let disk = stop.disk + 1;
+    let partner = match stop.partner {
         Partner::Disk(other) => format!("disk {}", other + 1),
         Partner::Shell => "nobody in a flight too fast to follow".into(),
         Partner::Wall(0) => "the base".into(),
@@ -95,7 +93,7 @@ fn refusal(stop: Stop) -> Error {
         time: stop.time,
         what: format!(
             "no headway: {} events in {:e} s, the last of disk {disk} with {partner}",
-            stop.events, stop.took
+            stop.events, stop.duration
         ),
         remedy: "Does the base throw disks too fast? Check its amplitude and the inputs. Inelastic collapse? Raise \
                  collision.contact_time or lower contact.normal_damping, or use the engine \
@@ -184,24 +182,29 @@ impl<R: HardRun> Scene for HardPacking<R> {
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
         let time = self.report.time;
-        let seen: Vec<_> = (0..self.radii.len()).map(|disk| self.run.seen(disk, time)).collect();
-        let count = seen.len() as f64;
+        let disks: Vec<_> = (0..self.radii.len())
+            .map(|disk| self.run.sample_at(time, disk))
+            .collect();
+        let count = disks.len() as f64;
         let (counts, base) = (self.run.counts(), self.run.base(time));
         outputs.reals("disk.radius", self.radii.iter().copied());
-        outputs.real("mean_velocity", seen.iter().map(|disk| disk.1[0]).sum::<f64>() / count);
+        outputs.real(
+            "mean_velocity",
+            disks.iter().map(|disk| disk.velocity.x).sum::<f64>() / count,
+        );
         outputs.real(
             "mean_angular_velocity",
-            seen.iter().map(|disk| disk.3).sum::<f64>() / count,
+            disks.iter().map(|disk| disk.angular_velocity).sum::<f64>() / count,
         );
         outputs.real("base.reaction_force", self.report.reaction_force);
         outputs.real("base.position", base.displacement);
         outputs.real("base.acceleration", base.acceleration);
         self.energies().write(&mut outputs, &counts, self.report.start_energy);
         outputs.real("collisions", (counts.disk_impacts + counts.wall_impacts) as f64);
-        outputs.reals("disk.angle", seen.iter().map(|disk| disk.2));
-        outputs.reals("disk.angular_velocity", seen.iter().map(|disk| disk.3));
-        outputs.reals("disk.x", seen.iter().map(|disk| disk.0[0]));
-        outputs.reals("disk.y", seen.iter().map(|disk| disk.0[1]));
+        outputs.reals("disk.angle", disks.iter().map(|disk| disk.angle));
+        outputs.reals("disk.angular_velocity", disks.iter().map(|disk| disk.angular_velocity));
+        outputs.reals("disk.x", disks.iter().map(|disk| disk.position.x));
+        outputs.reals("disk.y", disks.iter().map(|disk| disk.position.y));
         outputs.finish();
     }
 

@@ -6,13 +6,13 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::collision::{ContactTime, Dashpot, TabulatedDashpot, effective_mass};
-use crate::drive::{Motion, RandomPhase, Sine};
-use crate::engine::Work;
+use crate::drive::{AtRandomPhase, Motion, RandomPhase, Sine};
 use crate::engine::event_driven::{
-    AtRandomPhase, Counts, EventDriven, Gravity, Moving, Open, Settings, State, Stop, Unobserved, Walls,
+    Counts, EventDriven, EventDrivenState, Model, Moving, Open, Region, Settings, Stop, Unobserved, Walls,
 };
+use crate::engine::{DiskMotion, Work};
 use crate::error::{Error, Result};
-use crate::geometry::{Disk, Wall};
+use crate::geometry::{Disk, Vector2, Wall};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::hard_disks::HardBase;
 use crate::scene::{Unit, Values, Variable};
@@ -21,7 +21,7 @@ use crate::scene::{Unit, Values, Variable};
 pub type Law = ContactTime<TabulatedDashpot>;
 
 /// Engine of the packing over a base W.
-pub type HardDisks<W> = EventDriven<Law, Walls<W>, Gravity, Open>;
+pub type HardDisks<W> = EventDriven<Law, Walls<W>, Open>;
 
 /// Gap of neighbours at the start over the sum of their radii: hard disks that touch have no next impact.
 pub const START_GAP: f64 = 1e-3;
@@ -50,8 +50,8 @@ pub trait HardRun: Sized + Send + 'static {
     /// # Errors
     /// No headway, or too many events.
     fn advance_to(&mut self, end_time: f64, work: &mut Work) -> std::result::Result<(), Stop>;
-    /// Place, velocity, angle and angular velocity of a disk at `time` \[s\].
-    fn seen(&self, disk: usize, time: f64) -> ([f64; 2], [f64; 2], f64, f64);
+    /// Motion of a disk at `time` \[s\].
+    fn sample_at(&self, time: f64, disk: usize) -> DiskMotion;
     /// Sums since the start.
     fn counts(&self) -> Counts;
     /// Motion of the base at `time` \[s\].
@@ -84,7 +84,7 @@ impl HardBase for AtRandomPhase {
 }
 
 impl<W: HardBase> HardRun for HardDisks<W> {
-    type State = State<Walls<W>>;
+    type State = EventDrivenState<Walls<W>>;
     type Base = W::Drive;
 
     fn variables() -> Vec<Variable> {
@@ -157,28 +157,27 @@ impl<W: HardBase> HardRun for HardDisks<W> {
             base,
             origin: start_time,
         };
-        let space = Open {
-            corner: [-0.5 * width, 0.0],
-            size: [width, REGION_HEIGHT * width],
-        };
+        let space = Open(Region {
+            corner: Vector2::new(-0.5 * width, 0.0),
+            size: Vector2::new(width, REGION_HEIGHT * width),
+        });
         let settings = Settings {
             start_time,
             ..Settings::default()
         };
-        let gravity = Gravity(values.real("gravity"));
-        Ok(Self::new(
-            (law, boundary, gravity, space),
-            &disks,
-            masses,
-            &vec![[0.0; 3]; disks.len()],
-            settings,
-        ))
+        let model = Model {
+            law,
+            boundary,
+            gravity: values.real("gravity"),
+            space,
+        };
+        Ok(Self::new(model, &disks, masses, &vec![[0.0; 3]; disks.len()], settings))
     }
 
     fn aim(&mut self, time: f64, duration: f64, values: &Values) {
         let mut base = self.state().boundary.base.clone();
         if base.aim(time, duration, values) {
-            self.change_boundary(time, |boundary| boundary.base = base);
+            self.change_boundary(time, &mut Unobserved, |boundary| boundary.base = base);
         }
     }
 
@@ -186,8 +185,8 @@ impl<W: HardBase> HardRun for HardDisks<W> {
         self.advance_within(end_time, &mut Unobserved, work)
     }
 
-    fn seen(&self, disk: usize, time: f64) -> ([f64; 2], [f64; 2], f64, f64) {
-        Self::seen(self, disk, time)
+    fn sample_at(&self, time: f64, disk: usize) -> DiskMotion {
+        Self::sample_at(self, time, disk)
     }
 
     fn counts(&self) -> Counts {
@@ -233,9 +232,9 @@ pub enum EitherModel {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum EitherState {
     /// Of the random phase.
-    RandomPhase(State<Walls<AtRandomPhase>>),
+    RandomPhase(EventDrivenState<Walls<AtRandomPhase>>),
     /// Of the moving bottom.
-    Moving(State<Walls<Moving<Sine>>>),
+    Moving(EventDrivenState<Walls<Moving<Sine>>>),
 }
 
 macro_rules! either {
@@ -271,8 +270,8 @@ impl HardRun for EitherModel {
         either!(self, run => HardRun::advance_to(&mut **run, end_time, work))
     }
 
-    fn seen(&self, disk: usize, time: f64) -> ([f64; 2], [f64; 2], f64, f64) {
-        either!(self, run => run.seen(disk, time))
+    fn sample_at(&self, time: f64, disk: usize) -> DiskMotion {
+        either!(self, run => run.sample_at(time, disk))
     }
 
     fn counts(&self) -> Counts {

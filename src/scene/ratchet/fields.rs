@@ -1,6 +1,7 @@
 //! Fields of the flow over a sine: what to look at in, the observer that gathers it out.
 
 use crate::drive::Sine;
+use crate::engine::event_driven::Space;
 use crate::error::Result;
 use crate::measure::{FlowFields, Grid};
 
@@ -37,7 +38,7 @@ impl RatchetOnSine {
         let state = self.engine.state();
         let (profile, drive): (_, Sine) = (state.boundary.profile(), state.boundary.base().drive);
         let teeth = if resolution.whole_cell {
-            (self.engine.space().width / profile.width()).round() as u32
+            (self.engine.space().region().size.x / profile.width()).round() as u32
         } else {
             1
         };

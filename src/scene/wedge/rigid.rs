@@ -7,9 +7,9 @@ use rand_pcg::Pcg64;
 
 use crate::collision::{CollisionLaw, Dashpot, TabulatedDashpot, VelocityFloor};
 use crate::contact::LinearDashpot;
-use crate::drive::{FirstHit, RandomPhase, Sine};
+use crate::drive::{AtRandomPhase, BaseMotion, FirstHit, RandomPhase, Sine};
 use crate::engine::Work;
-use crate::engine::wedge::{DiskInWedge, Moving, NO_PROGRESS, Resting, Setup, Side, State, Stop, Stuck, WallMotion};
+use crate::engine::wedge::{DiskInWedge, NO_PROGRESS, Side, Start, Stop, Stuck, WedgeSetup, WedgeState};
 use crate::error::{Error, Result};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::{Kind, OutputWriter, Unit, Values, Variable};
@@ -23,7 +23,7 @@ use super::{NAME, rows};
 /// There is no velocity floor: a slow disk meets the base near its top, with `v_b` of order `sqrt(|v_n| A omega_b)`, and
 /// is thrown up again, so that impacts do not pile up whatever the restitution.
 #[derive(Debug)]
-pub struct Map(DiskInWedge<TabulatedDashpot, Resting>);
+pub struct Map(DiskInWedge<TabulatedDashpot, AtRandomPhase>);
 
 /// The wedge that moves with a drive D.
 ///
@@ -31,7 +31,7 @@ pub struct Map(DiskInWedge<TabulatedDashpot, Resting>);
 /// that: no impact leaves slower than `collision.minimum_normal_velocity`, and how many it concerned is an output. A
 /// disk at rest is thus one that bounces by v^2 / (2 g); its friction and the force on the base are right in the mean.
 #[derive(Debug)]
-pub struct EventDriven<D>(DiskInWedge<VelocityFloor<TabulatedDashpot>, Moving<D>>);
+pub struct EventDriven<D>(DiskInWedge<VelocityFloor<TabulatedDashpot>, D>);
 
 /// The impact law of a disk of unit mass at a wall, which depends on e_n, kappa and mu alone.
 fn law(values: &Values) -> Result<TabulatedDashpot> {
@@ -41,8 +41,8 @@ fn law(values: &Values) -> Result<TabulatedDashpot> {
     Ok(TabulatedDashpot::new(law, &[1.0], 0.5))
 }
 
-fn setup(values: &Values, slow: f64) -> Setup {
-    Setup {
+fn setup(values: &Values, slow: f64) -> WedgeSetup {
+    WedgeSetup {
         frame: rows::frame(values),
         radius: values.real("disk.radius"),
         gravity: values.real("gravity"),
@@ -100,20 +100,19 @@ fn refusal(stop: Stop, remedy: &str) -> Error {
     }
 }
 
-fn look<L: CollisionLaw, B: WallMotion>(disk: &DiskInWedge<L, B>, time: f64) -> Look {
-    let (view, sums, setup) = (disk.view(time), disk.state().sums, disk.setup());
-    let [vx, vy] = view.velocity;
-    let rim = setup.radius * view.angular_velocity;
+fn look<L: CollisionLaw, B: BaseMotion>(disk: &DiskInWedge<L, B>, time: f64) -> Look {
+    let (motion, sums, setup) = (disk.sample_at(time), disk.state().sums, disk.setup());
+    let rim = setup.radius * motion.angular_velocity;
     Look {
-        place: view.place,
-        velocity: view.velocity,
-        angle: view.angle,
-        angular_velocity: view.angular_velocity,
+        place: motion.position.into(),
+        velocity: motion.velocity.into(),
+        angle: motion.angle,
+        angular_velocity: motion.angular_velocity,
         base: disk.base(time),
         impulse: sums.velocity,
         energy: Energy {
-            kinetic: 0.5 * (vx * vx + vy * vy + 0.5 * rim * rim),
-            potential: setup.gravity * view.place[1],
+            kinetic: 0.5 * (motion.velocity.norm_squared() + 0.5 * rim * rim),
+            potential: setup.gravity * motion.position.y,
             input: sums.input,
             lost: sums.lost,
         },
@@ -121,15 +120,19 @@ fn look<L: CollisionLaw, B: WallMotion>(disk: &DiskInWedge<L, B>, time: f64) -> 
 }
 
 /// Goes to a state if it can be one.
-fn restore<L: CollisionLaw, B: WallMotion>(disk: &mut DiskInWedge<L, B>, state: &State<B>, time: f64) -> Result<()> {
+fn restore<L: CollisionLaw, B: BaseMotion>(
+    disk: &mut DiskInWedge<L, B>,
+    state: &WedgeState<B>,
+    time: f64,
+) -> Result<()> {
     let numbers = [
         state.time,
-        state.place.along,
-        state.place.above,
-        state.velocity.along,
-        state.velocity.above,
+        state.position.x,
+        state.position.y,
+        state.velocity.x,
+        state.velocity.y,
         state.rim_velocity,
-        state.rim_way,
+        state.arc_length,
         state.base.displacement,
         state.base.velocity,
     ];
@@ -145,7 +148,7 @@ fn restore<L: CollisionLaw, B: WallMotion>(disk: &mut DiskInWedge<L, B>, state: 
 }
 
 impl Engine for Map {
-    type State = State<Resting>;
+    type State = WedgeState<AtRandomPhase>;
     const NAME: &'static str = "map";
     const DRIVE: &'static str = <Sine as BaseDrive>::NAME;
     const IDENTIFIER: &'static str = "jostle_wedge_map";
@@ -186,8 +189,13 @@ impl Engine for Map {
         let phase = RandomPhase {
             peak_velocity: TAU * values.real("drive.frequency") * amplitude,
         };
-        let (setup, walls) = (setup(values, 0.0), Resting { phase, generator });
-        let disk = DiskInWedge::new(setup, law(values)?, walls, start_time, height, sideways);
+        let (setup, walls) = (setup(values, 0.0), AtRandomPhase { phase, generator });
+        let start = Start {
+            time: start_time,
+            height,
+            sideways,
+        };
+        let disk = DiskInWedge::new(setup, law(values)?, walls, start);
         Ok(Self(disk))
     }
 
@@ -219,7 +227,7 @@ impl Engine for Map {
 const FLOOR: &str = "collision.minimum_normal_velocity";
 
 impl<D: BaseDrive + FirstHit> Engine for EventDriven<D> {
-    type State = State<Moving<D>>;
+    type State = WedgeState<D>;
     const NAME: &'static str = "event-driven";
     const DRIVE: &'static str = D::NAME;
     const IDENTIFIER: &'static str = if D::STEERED {
@@ -258,13 +266,18 @@ impl<D: BaseDrive + FirstHit> Engine for EventDriven<D> {
         let (height, sideways) = rows::throw(values, &mut generator);
         let floor = values.real(FLOOR);
         let law = VelocityFloor::new(law(values)?, floor)?;
-        let (setup, walls) = (setup(values, floor), Moving(D::new(start_time, values)?));
-        Ok(Self(DiskInWedge::new(setup, law, walls, start_time, height, sideways)))
+        let (setup, walls) = (setup(values, floor), D::new(start_time, values)?);
+        let start = Start {
+            time: start_time,
+            height,
+            sideways,
+        };
+        Ok(Self(DiskInWedge::new(setup, law, walls, start)))
     }
 
     fn aim(&mut self, time: f64, duration: f64, values: &Values) {
         if D::STEERED {
-            self.0.steer(time, |walls| walls.0.aim(time, duration, values));
+            self.0.steer(time, |walls| walls.aim(time, duration, values));
         }
     }
 

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use rand::Rng;
 
-use crate::engine::wedge::Frame;
+use crate::engine::wedge::WedgeFrame;
 use crate::error::{Error, Result};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::{Unit, Values, Variable};
@@ -188,7 +188,7 @@ fn outputs(counts: Vec<Variable>) -> Vec<Variable> {
 /// Refuses what confines no disk and what no angular velocity can be scaled by.
 pub fn check(values: &Values) -> Result<()> {
     let (aperture, tilt) = (values.real("wedge.aperture"), values.real("wedge.tilt"));
-    let critical = Frame::critical_tilt(aperture);
+    let critical = WedgeFrame::critical_tilt(aperture);
     if tilt.abs() >= critical {
         return Err(Error::parameter(
             "wedge.tilt",
@@ -219,13 +219,13 @@ pub fn base_speed(values: &Values) -> f64 {
 }
 
 /// The wedge.
-pub fn frame(values: &Values) -> Frame {
-    Frame::new(values.real("wedge.aperture"), values.real("wedge.tilt"))
+pub fn frame(values: &Values) -> WedgeFrame {
+    WedgeFrame::new(values.real("wedge.aperture"), values.real("wedge.tilt"))
 }
 
 /// Slopes alpha_1, alpha_2 of the left and the right wall \[rad\].
 pub fn slopes(values: &Values) -> [f64; 2] {
-    let critical = Frame::critical_tilt(values.real("wedge.aperture"));
+    let critical = WedgeFrame::critical_tilt(values.real("wedge.aperture"));
     let tilt = values.real("wedge.tilt");
     [critical - tilt, critical + tilt]
 }

@@ -9,7 +9,7 @@ use crate::engine::Work;
 use crate::engine::molecular_dynamics::{
     Breakdown, ContactLaws, Integrator, MolecularDynamics, Setup, State, TimeStepLimits,
 };
-use crate::engine::wedge::{Frame, Side};
+use crate::engine::wedge::{Side, WedgeFrame};
 use crate::error::{Error, Result};
 use crate::geometry::{Disk, Wall};
 use crate::scene::base_drive::BaseDrive;
@@ -126,7 +126,7 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
         let mut generator = Pcg64::seed_from_u64(values.integer("seed") as u64);
         let (height, sideways) = rows::throw(values, &mut generator);
         let [up_x, up_y] = up_bisector(&frame);
-        let reach = height + radius / frame.bisector().above;
+        let reach = height + radius / frame.bisector().y;
         let disk = Disk {
             x: reach * up_x,
             y: reach * up_y + drive.motion(start_time).displacement,
@@ -191,6 +191,6 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
 }
 
 /// The unit vector up the bisector in the laboratory.
-fn up_bisector(frame: &Frame) -> [f64; 2] {
-    frame.laboratory(Side::Left, frame.bisector())
+fn up_bisector(frame: &WedgeFrame) -> [f64; 2] {
+    frame.to_laboratory(Side::Left, frame.bisector()).into()
 }

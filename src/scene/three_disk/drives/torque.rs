@@ -45,7 +45,7 @@ impl ThreeDiskDrive for HeldTorque {
     }
 
     fn aim(&mut self, time: f64, values: &Values) -> bool {
-        Self::aim(self, time, values.real("torque"), values.real("torque.rate"))
+        Self::set_target(self, time, values.real("torque"), values.real("torque.rate"))
     }
 
     fn continues(&self, _other: &Self) -> bool {

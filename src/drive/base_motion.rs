@@ -1,23 +1,25 @@
-//! How the walls of a wedge move: when a disk in flight meets one, and how fast the wall is then.
+//! What event-driven engines need of a base: where it is, when a flight meets it, how fast it is at the impact.
+//!
+//! Two kinds: a drive, which truly moves, and the random-phase approximation, which moves at impacts only (P 2.3.3).
 
 use rand_pcg::Pcg64;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use crate::drive::{FirstHit, Motion, RandomPhase};
+use super::{FirstHit, Motion, RandomPhase};
 use crate::geometry::{Flight, disk_wall};
 
-/// Motion of both walls, up and down together. It is part of the state.
-pub trait WallMotion: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static {
-    /// Where the walls are at `time` \[s\], as far as flights are concerned.
+/// Vertical motion of a base as impacts see it. Part of the state.
+pub trait BaseMotion: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static {
+    /// Motion at `time` \[s\] as far as flights are concerned.
     fn motion(&self, time: f64) -> Motion;
 
-    /// Delay \[s\] from `time` \[s\] until a disk meets a wall whose normal has the vertical part `normal_up`; see
+    /// Delay \[s\] from `time` \[s\] until a disk meets a wall whose normal has the vertical component `normal_up`; see
     /// [`FirstHit::first_hit`].
     fn first_hit(&self, time: f64, flight: &Flight, normal_up: f64) -> f64;
 
-    /// Velocity \[m/s\], up, of the walls at an impact while they are at `motion`; `normal_velocity` \[m/s\] is the disk's along the
-    /// wall's normal. None if there is no velocity with which `leaves` says that the disk gets off the wall.
+    /// Velocity \[m/s\] of the base, up, at an impact while it is at `motion`; `normal_velocity` \[m/s\] is the disk's
+    /// along the wall's normal. None if no velocity is found after which the disk `leaves` the wall.
     fn velocity_at_impact(
         &mut self,
         motion: Motion,
@@ -27,19 +29,15 @@ pub trait WallMotion: Clone + PartialEq + Serialize + DeserializeOwned + Send + 
     ) -> Option<f64>;
 }
 
-/// Walls that truly move with a drive.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Moving<D>(pub D);
-
-impl<D: FirstHit> WallMotion for Moving<D> {
+impl<D: FirstHit> BaseMotion for D {
     #[inline]
     fn motion(&self, time: f64) -> Motion {
-        self.0.motion(time)
+        super::Drive::motion(self, time)
     }
 
     #[inline]
     fn first_hit(&self, time: f64, flight: &Flight, normal_up: f64) -> f64 {
-        self.0.first_hit(time, flight, normal_up)
+        FirstHit::first_hit(self, time, flight, normal_up)
     }
 
     #[inline]
@@ -48,16 +46,16 @@ impl<D: FirstHit> WallMotion for Moving<D> {
     }
 }
 
-/// Walls at rest that give each impact the velocity of a sine at a random phase (P 2.3.3).
+/// Base that stays in place and gives each impact the velocity of a sine at a random phase (P 2.3.3).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Resting {
+pub struct AtRandomPhase {
     /// Distribution of the velocity.
     pub phase: RandomPhase,
-    /// Where its random numbers come from.
+    /// Source of random phases.
     pub generator: Pcg64,
 }
 
-impl WallMotion for Resting {
+impl BaseMotion for AtRandomPhase {
     #[inline]
     fn motion(&self, _time: f64) -> Motion {
         Motion::default()

@@ -39,8 +39,8 @@ pub struct Impact {
     pub normal_velocity: f64,
     /// u_t \[m/s\] of the surfaces. Laws that do not rotate ignore it.
     pub tangential_velocity: f64,
-    /// Time \[s\] since the last impact of either body, the shorter of the two. Only laws that remember look at it
-    /// ([`CollisionLaw::REMEMBERS`]); infinite where nobody keeps it.
+    /// Time \[s\] since the last impact of either body, the shorter of the two. Only laws that remember use it
+    /// ([`CollisionLaw::REMEMBERS`]); infinite where the engine does not keep it.
     pub time_since_last: f64,
 }
 

@@ -258,7 +258,7 @@ fn sliding_after_the_first_stick() {
             let ratio = factor * law.slides_throughout_from(1.0, 1.0 / 3.0);
             let full = 1.0 - 3.0 * mu * (1.0 + restitution) / ratio;
             let excess = law.tangential_restitution(1.0, 1.0 / 3.0, ratio) - full;
-            // The skin is up after t_1 <= mu N_max / (kappa u_min), and takes less than mu N until then.
+            // The spring is at its limit after t_1 <= mu N_max / (kappa u_min), and takes less than mu N until then.
             let most_force = (1.0 + 4.0 * c * c).sqrt();
             let first_stick = mu * most_force / (kappa * (ratio - 3.0 * mu * (1.0 + restitution)));
             assert!(
@@ -327,7 +327,7 @@ fn degenerate_impacts() {
     assert_eq!(table.impulse(&other), law.impulse(&other));
 }
 
-/// A skin too stiff for tables is found out once, not for each of the masses.
+/// A spring too stiff for tables is found out once, not for each of the masses.
 #[test]
 fn a_table_without_end_is_given_up_once() {
     let masses: Vec<f64> = (1..=40).map(|mass| 1e-3 * f64::from(mass)).collect();

@@ -1,7 +1,7 @@
 //! Mass and momentum of disks by place and phase of the base: flights in, time averages in boxes out (F Figs 13, 14).
 //!
 //! Accumulated exactly, not sampled: each flight is cut where its parabola leaves a box and where the phase of the base
-//! enters another window, and every piece adds its duration and its way to one sum. So in each window the masses of all
+//! enters another window, and every piece adds its duration and its displacement to one sum. So in each window the masses of all
 //! boxes add up to the mass of the disks, and the momenta of all windows to the transport, to rounding.
 
 use std::f64::consts::TAU;

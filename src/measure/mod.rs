@@ -1,4 +1,4 @@
-//! Read-only observables: what a run shows in, numbers with their errors out. Nothing here changes what it looks at.
+//! Observables: samples or flights of a run in, numbers with their errors out. Nothing here changes the run.
 
 mod batch_means;
 mod flow_fields;
@@ -7,4 +7,4 @@ mod transport;
 
 pub use batch_means::BatchMeans;
 pub use flow_fields::{Cell, FlowFields, Grid, Layer};
-pub use transport::{Told, Transport};
+pub use transport::{Transport, TransportAverages};

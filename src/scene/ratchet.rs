@@ -347,16 +347,16 @@ where
         let (counts, base) = (&state.counts, state.boundary.base().motion(time));
         let ceiling_hits = state.boundary.ceiling_hits();
         let places = disks.iter().map(|disk| disk.position.x);
-        let told = self.averages.transport.told(time, places, counts.energy_input);
+        let averages = self.averages.transport.averages(time, places, counts.energy_input);
         outputs.real("layers", self.layers);
         outputs.reals("disk.radius", state.bodies.iter().map(|body| body.radius));
         outputs.real(
             "mean_velocity",
             disks.iter().map(|disk| disk.velocity.x).sum::<f64>() / count,
         );
-        outputs.real("transport_velocity", told.velocity);
-        outputs.real("transport_velocity.standard_error", told.standard_error);
-        outputs.real("transport_velocity.spread", told.spread);
+        outputs.real("transport_velocity", averages.velocity);
+        outputs.real("transport_velocity.standard_error", averages.standard_error);
+        outputs.real("transport_velocity.spread", averages.spread);
         outputs.real(
             "mean_angular_velocity",
             disks.iter().map(|disk| disk.angular_velocity).sum::<f64>() / count,
@@ -364,7 +364,7 @@ where
         outputs.real("base.reaction_force", self.report.reaction_force);
         outputs.real("base.position", base.displacement);
         outputs.real("base.acceleration", base.acceleration);
-        outputs.real("base.mean_power", told.power);
+        outputs.real("base.mean_power", averages.power);
         self.energies().write(&mut outputs, counts, self.report.start_energy);
         outputs.real("collisions", (counts.disk_impacts + counts.wall_impacts) as f64);
         outputs.real("collisions.disks", counts.disk_impacts as f64);

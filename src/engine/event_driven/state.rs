@@ -84,7 +84,7 @@ pub struct EventDrivenState<B> {
     pub epoch: f64,
     /// Disks in flight.
     pub bodies: Vec<Body>,
-    /// Their spins and what goes with impacts.
+    /// Their spins and other data of impacts only.
     pub spins: Vec<Spin>,
     /// Walls.
     pub boundary: B,

@@ -1,7 +1,7 @@
 //! What inertia adds to a slide, to first order in `m omega_e^2 / k_n` and `m omega_e^2 / k_t`.
 //!
 //! Soft contacts let the disk follow the torque. When the last contact begins to slide the centre moves at
-//! `v ~ T' / (R k_n)`, and the disk rolls on the contact that still sticks and winds its skin up:
+//! `v ~ T' / (R k_n)`, and the disk rolls on the contact that still sticks and winds up its tangential spring:
 //! `omega = -(v.t + tau' / k_t) / R`. In the slide the centre
 //! comes to rest: the normal forces deliver the impulse `-m v`, and with them friction an angular impulse. Both together
 //! are an angular velocity with which the slide starts, and over its duration they turn the disk on. The relative effect is

@@ -12,9 +12,9 @@ pub struct MeanTorques {
     pub s1: f64,
     /// Sliding counter-clockwise, `-A_S2`.
     pub s2: f64,
-    /// Contacts slide in opposite senses, skin stretched.
+    /// Contacts slide in opposite senses, springs stretched.
     pub t1: f64,
-    /// Contacts slide in opposite senses, skin compressed.
+    /// Contacts slide in opposite senses, springs compressed.
     pub t2: f64,
 }
 

@@ -1,6 +1,6 @@
 //! Theory of one disk on two supports that it does not leave (P chapters 4 and 5): parameters in, curves out.
 //!
-//! Pure functions of a [`Setting`]; no run is looked at. Contact 1 is the left one, 2 the right one. Tangential forces
+//! Pure functions of a [`Setting`]; they need no run. Contact 1 is the left one, 2 the right one. Tangential forces
 //! `tau_i` on the disk are positive where they turn it counter-clockwise, so that the torque on it is `R (tau_1 + tau_2)`.
 //! Sliding counter-clockwise, both contacts pull at `-mu n`: the point S2.
 //!
@@ -17,7 +17,7 @@
 //! | `mean_torques` | torques at the corners and their mean | 5.15 to 5.21 |
 //! | `relaxed` | limits and corners with the overlap of soft contacts | from 4.1, 4.23, 4.24 |
 //!
-//! Not here: how the centre of the disk and the skin ring after a stop. That vanishes as the torque becomes slow.
+//! Not here: how the centre of the disk and the tangential springs ring after a stop. That vanishes as the torque becomes slow.
 
 mod balance;
 mod closed_form;

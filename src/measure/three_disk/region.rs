@@ -1,14 +1,14 @@
-//! The region of departure and stretch that Amonton's condition admits, and its corners (P 4.4, Fig. 4.3).
+//! The region of departure and stretch that Coulomb's condition admits, and its corners (P 4.4, Fig. 4.3).
 
 use super::balance::loads;
 use super::{Acceleration, Setting, Tangential};
 
-/// A state of the elastic skin: `delta_theta` and `Theta` of P 4.14 and 4.15.
+/// A state of the tangential springs: `delta_theta` and `Theta` of P 4.14 and 4.15.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
     /// `delta_theta = -(tau_1 + tau_2) / (2 k_t R)` \[rad\]: angle of the disk from where its torque vanishes.
     pub departure: f64,
-    /// `Theta = (tau_2 - tau_1) / (2 k_t R)` \[rad\]: stretch of the skin.
+    /// `Theta = (tau_2 - tau_1) / (2 k_t R)` \[rad\]: stretch of the tangential springs.
     pub stretch: f64,
 }
 
@@ -39,9 +39,9 @@ pub enum Corner {
     S1,
     /// Both contacts slide while the disk turns counter-clockwise, P 4.43.
     S2,
-    /// The contacts slide in opposite senses, the skin is stretched most, P 4.47.
+    /// The contacts slide in opposite senses, the springs are stretched most, P 4.47.
     T1,
-    /// The contacts slide in opposite senses, the skin is compressed most, P 4.49.
+    /// The contacts slide in opposite senses, the springs are compressed most, P 4.49.
     T2,
     /// Contact 1 opens, P 4.44.
     D1,
@@ -70,7 +70,7 @@ impl Corner {
 ///
 /// Denominators are those of print times mu, so that without friction S and T lie at the origin. S and T bound the region
 /// while the friction is below [`super::detachment_friction`] and below `1/tan theta_0`. From there on supports far apart
-/// jam the disk: no compression of the skin makes both contacts slide, the region is open there and T2 no corner of it.
+/// jam the disk: no compression of the springs makes both contacts slide, the region is open there and T2 no corner of it.
 pub fn point(setting: &Setting, acceleration: Acceleration, corner: Corner) -> Point {
     let (w_1, w_2) = loads(setting, acceleration);
     let (s_12, c_12) = (2.0 * setting.half_angle).sin_cos();
@@ -104,7 +104,7 @@ pub fn point(setting: &Setting, acceleration: Acceleration, corner: Corner) -> P
     }
 }
 
-/// How far the tangential forces at a point are from each of Amonton's four limits \[N\]: (a), (b), (c), (d) of P 4.32 to
+/// How far the tangential forces at a point are from each of Coulomb's four limits \[N\]: (a), (b), (c), (d) of P 4.32 to
 /// 4.35 as `mu n_i - |tau_i|` with either sign of `tau_i`. Negative beyond a limit.
 ///
 /// (a) contact 1 slides counter-clockwise (`tau_1 < 0`), (b) clockwise; (c) contact 2 clockwise, (d) counter-clockwise.

@@ -59,7 +59,7 @@ fn kicks_stop_the_centre() {
             let newton = [[s_1, -s_2, c_1, c_2], [c_1, c_2, -s_1, s_2]];
             let torque = [0.0, 0.0, setting.radius, setting.radius];
             let [n_1, n_2, tau_1, tau_2] = solve([newton[0], newton[1], slides, torque], [0.0, 0.0, 0.0, -sense]);
-            // Centre and spin: overlaps and the skin of the contact that sticks follow the forces.
+            // Centre and spin: overlaps and the tangential spring of the contact that sticks follow the forces.
             let (r, k) = (setting.radius, stiffness);
             let (sticks, tau) = if setting.tilt > 0.0 {
                 ([c_1, -s_1, r], tau_1)

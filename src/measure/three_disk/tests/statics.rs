@@ -245,20 +245,20 @@ fn mean_torques_are_the_printed_ones_with_t1_and_t2_swapped_back() {
 
 #[test]
 fn what_is_no_setting_is_refused() {
-    let told = |setting: Setting| setting.checked().unwrap_err().to_string();
+    let message = |setting: Setting| setting.checked().unwrap_err().to_string();
     let good = Setting::THESIS;
     assert!(good.checked().is_ok());
-    assert!(told(Setting { gravity: -1.0, ..good }).starts_with("gravity = -1"));
-    assert!(told(Setting { mass: f64::NAN, ..good }).starts_with("disk.mass = NaN"));
-    assert!(told(Setting { friction: -0.1, ..good }).contains("from 0"));
+    assert!(message(Setting { gravity: -1.0, ..good }).starts_with("gravity = -1"));
+    assert!(message(Setting { mass: f64::NAN, ..good }).starts_with("disk.mass = NaN"));
+    assert!(message(Setting { friction: -0.1, ..good }).contains("from 0"));
     assert!(
-        told(Setting {
+        message(Setting {
             half_angle: 2.0,
             ..good
         })
         .contains("pi/6")
     );
-    assert!(told(good.tilted(0.6)).contains("rolls off"));
+    assert!(message(good.tilted(0.6)).contains("rolls off"));
     assert!(relaxed(&good, 1.0, 1.0).is_err() && relaxed(&good, f64::NAN, 1.0).is_err());
     assert!(relaxed(&good, 1e3, 0.0).is_err());
 }

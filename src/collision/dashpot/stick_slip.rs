@@ -1,7 +1,7 @@
-//! Tangential motion during an impact of the linear dashpot with an elastic skin: phases of stick and slip, each in
-//! closed form, stitched at their exact instants (P 4.5.2 with the corrections below).
+//! Tangential motion during an impact of the linear dashpot with a tangential spring: phases of stick and slip, each in
+//! closed form, joined at their exact instants (P 4.5.2 with the corrections below).
 //!
-//! Units as in `oscillator`, and the skin's stretch z in those of the overlap. With `rho = m_eff / alpha` (3 for disks):
+//! Units as in `oscillator`, and the stretch z of the spring in those of the overlap. With `rho = m_eff / alpha` (3 for disks):
 //! ```text
 //! stick:  z' = u,  u' = -Omega^2 z,  Omega^2 = rho kappa      while  kappa |z| < mu N
 //! slip:   kappa z = s mu N,  u = u_0 + s rho mu (v - v_0)     while  kappa s u > mu N'
@@ -18,9 +18,9 @@
 use super::oscillator::{Normal, Oscillator};
 use crate::geometry::bracketed_root::falling_root;
 
-/// What decides an impact, all without dimension.
+/// What decides the tangential motion, all without dimension.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Skin {
+pub(super) struct TangentialSpring {
     /// kappa = k_t / k_n.
     pub stiffness_ratio: f64,
     /// mu.
@@ -29,10 +29,10 @@ pub(super) struct Skin {
     pub mobility: f64,
 }
 
-/// One impact to be stitched.
+/// Stick and slip of one kind of impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stitching {
-    skin: Skin,
+pub(super) struct StickSlip {
+    spring: TangentialSpring,
     pub normal: Oscillator,
     /// Omega.
     frequency: f64,
@@ -47,7 +47,7 @@ pub(super) struct Outcome {
     pub sequence: u64,
 }
 
-/// Start of a phase: time, stretch and velocity of the skin.
+/// Start of a phase: time, stretch and velocity of the spring.
 #[derive(Debug, Clone, Copy)]
 struct Start {
     time: f64,
@@ -62,7 +62,7 @@ struct Margin {
     rate: f64,
 }
 
-/// A stiff skin switches some `Omega` times; the shortest stick is about 1e-7 of a contact. Never reached in tests.
+/// A stiff spring switches some `Omega` times; the shortest stick is about 1e-7 of a contact. Never reached in tests.
 const MOST_PHASES: usize = 10_000;
 /// Steps from parabola to parabola within one phase; grazing takes the most, some hundred.
 const MOST_STEPS: usize = 2_000;
@@ -85,11 +85,11 @@ impl Margin {
     }
 }
 
-impl Stitching {
-    pub fn new(skin: Skin, normal: Oscillator) -> Self {
-        let frequency = (skin.mobility * skin.stiffness_ratio).sqrt();
+impl StickSlip {
+    pub fn new(spring: TangentialSpring, normal: Oscillator) -> Self {
+        let frequency = (spring.mobility * spring.stiffness_ratio).sqrt();
         Self {
-            skin,
+            spring,
             normal,
             frequency,
         }
@@ -97,7 +97,7 @@ impl Stitching {
 
     /// `rho mu (1 + e_n)`: what sliding from touch to end takes off the ratio |u_t / u_n| (P 4.74).
     pub fn full_slide(&self) -> f64 {
-        self.skin.mobility * self.skin.friction * (1.0 + self.normal.restitution)
+        self.spring.mobility * self.spring.friction * (1.0 + self.normal.restitution)
     }
 
     /// Velocity of the surfaces after an impact at `ratio` = |u_t / u_n|, finite and not negative.
@@ -109,7 +109,7 @@ impl Stitching {
         };
         let mut sequence = 1;
         // Only without damping is there no force at touch, and only then may the surfaces slide from the start (P 4.76).
-        let mut sliding = self.normal.damping == 0.0 && self.skin.stiffness_ratio * ratio > self.skin.friction;
+        let mut sliding = self.normal.damping == 0.0 && self.spring.stiffness_ratio * ratio > self.spring.friction;
         let mut sense = 1.0;
         for _ in 0..MOST_PHASES {
             if !sliding {
@@ -131,15 +131,15 @@ impl Stitching {
         }
     }
 
-    /// Sticks until the skin slips and returns the sense of the slip, or until the contact ends.
+    /// Sticks until the spring slips and returns the sense of the slip, or until the contact ends.
     fn stick(&self, start: &mut Start) -> Option<f64> {
-        let Skin {
+        let TangentialSpring {
             stiffness_ratio: kappa,
             friction: mu,
             ..
-        } = self.skin;
+        } = self.spring;
         let omega = self.frequency;
-        let reach = start.stretch.hypot(start.velocity / omega);
+        let amplitude = start.stretch.hypot(start.velocity / omega);
         let (mut time, mut stretch, mut velocity) = (start.time, start.stretch, start.velocity);
         let mut normal = self.normal.at(time);
         for step in 0..MOST_STEPS {
@@ -151,7 +151,7 @@ impl Stitching {
             // Solutions of the damped oscillation keep y^2 + y'^2 from growing: a bound on N'' and N''' from now on.
             let curvature = -normal.force - 2.0 * self.normal.damping * force_rate;
             let later = curvature.hypot(-force_rate - 2.0 * self.normal.damping * curvature);
-            let bound = mu * later + kappa * omega * omega * reach;
+            let bound = mu * later + kappa * omega * omega * amplitude;
             let limits = [margin(1.0), margin(-1.0)];
             let steps = limits.map(|limit| limit.safe_step(bound));
             let nearer = if steps[0] <= steps[1] { 1.0 } else { -1.0 };
@@ -164,7 +164,7 @@ impl Stitching {
                     } else {
                         (-1.0, steps[0])
                     };
-                    let jerk = mu * later + kappa * omega.powi(3) * reach;
+                    let jerk = mu * later + kappa * omega.powi(3) * amplitude;
                     let leaving = 3.0 * (mu * curvature + left * kappa * omega * omega * stretch) / jerk;
                     length = length.max(leaving.min(other));
                 }
@@ -201,13 +201,13 @@ impl Stitching {
         Some(stretch.signum())
     }
 
-    /// Slips in one sense until the skin sticks and returns true, or until the contact ends.
+    /// Slips in one sense until the spring sticks and returns true, or until the contact ends.
     fn slip(&self, start: &mut Start, sense: f64) -> bool {
-        let Skin {
+        let TangentialSpring {
             stiffness_ratio: kappa,
             friction: mu,
             mobility: rho,
-        } = self.skin;
+        } = self.spring;
         let c = self.normal.damping;
         let first = self.normal.at(start.time);
         let excess = rho * kappa - 1.0;

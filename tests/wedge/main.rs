@@ -2,8 +2,11 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod cartesian;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use cartesian::{Plain, wall_angles};
 use jostle::collision::{CollisionLaw, Coulomb, Dashpot, TabulatedDashpot, VelocityFloor};
 use jostle::contact::LinearDashpot;
 use jostle::drive::{AtRandomPhase, BaseMotion, RandomPhase, Sine};
@@ -54,62 +57,6 @@ fn dashpot(restitution: f64, kappa: f64, friction: f64) -> Dashpot {
 
 fn tabulated(restitution: f64, kappa: f64, friction: f64) -> TabulatedDashpot {
     TabulatedDashpot::new(dashpot(restitution, kappa, friction), &[1.0], 0.5)
-}
-
-/// A disk as a beginner would write it: Cartesian, in the laboratory, walls as P 6.4, 6.5 with their own angles.
-#[derive(Debug, Clone, Copy)]
-struct Plain {
-    time: f64,
-    position: [f64; 2],
-    velocity: [f64; 2],
-    angular_velocity: f64,
-    angle: f64,
-}
-
-impl Plain {
-    /// The start of `DiskInWedge::new`, seen from the vertex of the shifted wedge.
-    fn new(tilt: f64, height: f64, sideways: f64) -> Self {
-        Self {
-            time: 0.0,
-            position: [-height * tilt.sin(), height * tilt.cos()],
-            velocity: [sideways * tilt.cos(), sideways * tilt.sin()],
-            angular_velocity: 0.0,
-            angle: 0.0,
-        }
-    }
-
-    fn at(&self, delay: f64) -> Self {
-        let [[x, y], [vx, vy]] = [self.position, self.velocity];
-        Self {
-            time: self.time + delay,
-            position: [x + vx * delay, y + vy * delay - 0.5 * GRAVITY * delay * delay],
-            velocity: [vx, vy - GRAVITY * delay],
-            angle: self.angle + self.angular_velocity * delay,
-            ..*self
-        }
-    }
-
-    /// P 2.11, 2.23, 2.24 at a wall of this angle that moves up at `base`.
-    fn bounce(&mut self, angle: f64, base: f64, law: &Dashpot) {
-        let (sine, cosine) = angle.sin_cos();
-        let [vx, vy] = self.velocity;
-        let (normal, tangential) = (-sine * vx + cosine * vy, cosine * vx + sine * vy);
-        let un = normal - base * cosine;
-        let ut = tangential + RADIUS * self.angular_velocity - base * sine;
-        let et = law.tangential_restitution(1.0, 1.0 / 3.0, (ut / un).abs());
-        let normal = normal - (1.0 + law.normal_restitution(1.0)) * un;
-        let tangential = tangential - (1.0 - et) / 3.0 * ut;
-        self.angular_velocity -= 2.0 * (1.0 - et) / (3.0 * RADIUS) * ut;
-        self.velocity = [
-            -sine * normal + cosine * tangential,
-            cosine * normal + sine * tangential,
-        ];
-    }
-}
-
-fn wall_angles(aperture: f64, tilt: f64) -> [f64; 2] {
-    let critical = 0.5 * (PI - aperture);
-    [tilt - critical, tilt + critical]
 }
 
 /// The map against a direct simulation of the same process with the same random numbers.

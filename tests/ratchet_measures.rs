@@ -162,9 +162,9 @@ fn standard_errors_are_the_scatter_of_runs() {
         .collect();
     let mean = runs.iter().map(|run| run[0]).sum::<f64>() / 40.0;
     let scatter = (runs.iter().map(|run| (run[0] - mean).powi(2)).sum::<f64>() / 39.0).sqrt();
-    let told = (runs.iter().map(|run| run[1].powi(2)).sum::<f64>() / 40.0).sqrt();
-    println!("{mean:.4} m/s, scatter {scatter:.5}, told {told:.5} m/s");
-    assert!((0.6..1.6).contains(&(told / scatter)));
+    let estimated = (runs.iter().map(|run| run[1].powi(2)).sum::<f64>() / 40.0).sqrt();
+    println!("{mean:.4} m/s, scatter {scatter:.5}, estimated {estimated:.5} m/s");
+    assert!((0.6..1.6).contains(&(estimated / scatter)));
 }
 
 /// Fields of `seconds` after `warm_up`, their end, and the transport velocity over the same time.
@@ -215,7 +215,7 @@ fn fields_hold_all_mass_and_the_whole_transport() {
     }
 }
 
-/// The same run, looked at 100,000 times a second: boxes differ by what a look every 10 us misses at their edges.
+/// The same run, sampled 100,000 times a second: boxes differ by what samples every 10 us miss at their edges.
 #[test]
 fn fields_are_what_brute_force_sampling_tends_to() {
     let (warm_up, seconds, interval) = (0.5, 4.0, 1e-5);
@@ -226,8 +226,8 @@ fn fields_are_what_brute_force_sampling_tends_to() {
     let values = values_of::<RatchetOnSine>(CHOICE, &POSITIVE);
     let mut ratchet = RatchetOnSine::new(CHOICE, 0.0, &values).unwrap();
     let lowest = (exact[0].y / 1e-3).floor();
-    for look in 0..400_000_u32 {
-        let time = warm_up + (f64::from(look) + 0.5) * interval;
+    for sample in 0..400_000_u32 {
+        let time = warm_up + (f64::from(sample) + 0.5) * interval;
         ratchet.advance_to(time, &values).unwrap();
         let window = (6.0 * 25.0 * time).floor().rem_euclid(6.0) as usize;
         for disk in 0..20 {

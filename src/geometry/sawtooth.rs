@@ -57,29 +57,21 @@ impl SawtoothProfile {
         check(
             "tooth.width",
             width,
-            f64::MIN_POSITIVE,
-            f64::MAX,
+            f64::MIN_POSITIVE..=f64::MAX,
             "a finite length above 0 m",
         )?;
         check(
             "tooth.height",
             height,
-            0.0,
-            f64::MAX,
+            0.0..=f64::MAX,
             "a finite length from 0 m, which is flat",
         )?;
-        check(
-            "tooth.asymmetry",
-            asymmetry,
-            0.0,
-            1.0,
-            "from 0, a vertical left side, to 1, a vertical right side",
-        )?;
+        let vertical = "from 0, a vertical left side, to 1, a vertical right side";
+        check("tooth.asymmetry", asymmetry, 0.0..=1.0, vertical)?;
         check(
             "tooth.tip_radius",
             tip_radius,
-            0.0,
-            f64::MAX,
+            0.0..=f64::MAX,
             "a finite length from 0 m, which is sharp",
         )?;
         let (left, right) = (asymmetry * width, (1.0 - asymmetry) * width);
@@ -174,8 +166,8 @@ impl SawtoothProfile {
     }
 }
 
-fn check(name: &str, value: f64, least: f64, most: f64, allowed: &str) -> Result<()> {
-    if value.is_finite() && (least..=most).contains(&value) {
+fn check(name: &str, value: f64, range: RangeInclusive<f64>, allowed: &str) -> Result<()> {
+    if range.contains(&value) {
         return Ok(());
     }
     Err(Error::parameter(name, value, allowed, "Give a value in this range."))

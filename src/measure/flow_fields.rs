@@ -80,7 +80,7 @@ impl FlowFields {
     ///
     /// # Errors
     /// A sine without periods, more boxes than memory should hold.
-    pub fn new(grid: Grid, masses: Vec<f64>, gravity: f64, sine: Sine, (start, epoch): (f64, f64)) -> Result<Self> {
+    pub fn new(grid: Grid, masses: Vec<f64>, gravity: f64, sine: Sine, start: f64, epoch: f64) -> Result<Self> {
         if sine.frequency <= 0.0 {
             return Err(Error::parameter(
                 "drive.frequency",
@@ -314,7 +314,7 @@ mod tests {
         let mut random = rand_pcg::Pcg64::seed_from_u64(5);
         let epoch = 64.0;
         for _ in 0..100 {
-            let mut fields = FlowFields::new(GRID, vec![2.0], 9.81, SINE, (epoch + 1.0, epoch)).unwrap();
+            let mut fields = FlowFields::new(GRID, vec![2.0], 9.81, SINE, epoch + 1.0, epoch).unwrap();
             let mut draw = |low: f64, high: f64| random.random_range(low..high);
             let from = body(
                 draw(-0.01, 0.07),
@@ -363,7 +363,7 @@ mod tests {
             body(3e-3, 20e-3, 0.3, -rise, 0.0),
             body(-0.0, 20e-3, 0.1, 5e-324, 0.0),
         ] {
-            let mut fields = FlowFields::new(GRID, vec![1.0], 9.81, SINE, (0.0, 0.0)).unwrap();
+            let mut fields = FlowFields::new(GRID, vec![1.0], 9.81, SINE, 0.0, 0.0).unwrap();
             fields.flight(0, &from, 0.04);
             fields.flight(0, &from, -1.0);
             let sums: Vector3<f64> = fields.sums.iter().sum();
@@ -375,7 +375,7 @@ mod tests {
 
     #[test]
     fn durations_of_windows_add_up_and_are_even_over_periods() {
-        let fields = FlowFields::new(GRID, vec![1.0], 9.81, SINE, (0.3, 0.0)).unwrap();
+        let fields = FlowFields::new(GRID, vec![1.0], 9.81, SINE, 0.3, 0.0).unwrap();
         let durations = fields.durations(0.3 + 40.0 * 7.0);
         assert!(durations.iter().all(|duration| (duration - 280.0 / 6.0).abs() < 1e-11));
         let durations = fields.durations(0.3 + 0.047);
@@ -385,7 +385,7 @@ mod tests {
     #[test]
     fn what_has_no_periods_or_too_many_boxes_is_refused_by_name() {
         let message = |grid: Grid, sine: Sine| {
-            FlowFields::new(grid, vec![], 9.81, sine, (0.0, 0.0))
+            FlowFields::new(grid, vec![], 9.81, sine, 0.0, 0.0)
                 .unwrap_err()
                 .to_string()
         };

@@ -35,7 +35,7 @@ fn depths(ratchet: &RatchetOnSine, profile: &Profile, time: f64, count: usize, w
 
 /// F's hardest: deep steep teeth, strong shaking, many layers; and shapes at the edges of what exists.
 #[test]
-fn nothing_penetrates_and_nobody_is_lost() {
+fn no_disk_penetrates_the_base_and_none_is_lost() {
     let amplitude = 2e-3;
     let frequency = |gamma: f64| (gamma * 9.81_f64 / amplitude).sqrt() / std::f64::consts::TAU;
     for (disks, height, asymmetry, tip, gamma, seconds) in [
@@ -57,8 +57,8 @@ fn nothing_penetrates_and_nobody_is_lost() {
         let profile = Profile::new(6e-3, height, asymmetry, tip);
         let mut ratchet = RatchetOnSine::new(choice, 0.0, &values).unwrap();
         let mut deepest = [f64::NEG_INFINITY; 2];
-        for look in 1..=2000 {
-            let time = f64::from(look) * seconds / 2000.0;
+        for sample in 1..=2000 {
+            let time = f64::from(sample) * seconds / 2000.0;
             ratchet.advance_to(time, &values).unwrap();
             let now = depths(&ratchet, &profile, time, disks as usize, 60e-3);
             deepest = [deepest[0].max(now[0]), deepest[1].max(now[1])];
@@ -72,7 +72,7 @@ fn nothing_penetrates_and_nobody_is_lost() {
     }
 }
 
-/// The hardest case over a thousand million events, also as a second variant with sharper tips. Tells what it has every
+/// The hardest case over a thousand million events, also as a second variant with sharper tips. Reports every
 /// hundred million: `cargo test --release --test ratchet -- --ignored --nocapture billion`.
 fn nothing_penetrates_in(events: u64, tip: f64) {
     let choice = Choice { disks: 120 };
@@ -86,19 +86,19 @@ fn nothing_penetrates_in(events: u64, tip: f64) {
     let values = sine_values(choice, &changes);
     let profile = Profile::new(6e-3, 16e-3, 0.05, tip);
     let mut ratchet = RatchetOnSine::new(choice, 0.0, &values).unwrap();
-    let (mut deepest, mut look, mut told) = ([f64::NEG_INFINITY; 2], 0_u32, 0);
+    let (mut deepest, mut sample, mut reported) = ([f64::NEG_INFINITY; 2], 0_u32, 0);
     let begin = cpu_time::ProcessTime::now();
     loop {
-        look += 1;
-        let time = 0.1 * f64::from(look);
+        sample += 1;
+        let time = 0.1 * f64::from(sample);
         ratchet.advance_to(time, &values).unwrap();
         let now = depths(&ratchet, &profile, time, 120, 60e-3);
         deepest = [deepest[0].max(now[0]), deepest[1].max(now[1])];
         let counts = &ratchet.engine().state().counts;
         let impacts = counts.disk_impacts + counts.wall_impacts;
         let done = impacts + counts.list_renewals + counts.stale;
-        if done / 100_000_000 > told || done >= events {
-            told = done / 100_000_000;
+        if done / 100_000_000 > reported || done >= events {
+            reported = done / 100_000_000;
             println!(
                 "tip {tip} m: {done} events, {impacts} impacts ({} on base and ceiling) in {time:.0} s, CPU {:.0} s; deepest \
                  into base {:.1e} m, into disks {:.1e} m; resident {} kB",

@@ -87,24 +87,24 @@ fn rollback_gives_the_same_bits() {
 
 #[test]
 fn impossible_ratchets_are_refused_by_name() {
-    let told = |changes: &[(&str, f64)]| {
+    let message = |changes: &[(&str, f64)]| {
         let values = sine_values(DEFAULT, changes);
         RatchetOnSine::new(DEFAULT, 0.0, &values).unwrap_err().to_string()
     };
-    assert!(told(&[("tooth.tip_radius", 3.1e-3)]).contains("narrower than its tip"));
+    assert!(message(&[("tooth.tip_radius", 3.1e-3)]).contains("narrower than its tip"));
     assert!(
-        told(&[
+        message(&[
             ("tooth.tip_radius", 1e-3),
             ("tooth.height", 1e-3),
             ("tooth.asymmetry", 0.0)
         ])
         .contains("touch both")
     );
-    assert!(told(&[("disk.radius_min", 2e-3)]).starts_with("disk.radius_min"));
-    assert!(told(&[("disk.radius_max", 9e-3)]).starts_with("tooth.count"));
-    assert!(told(&[("tooth.width", 2e-6), ("tooth.tip_radius", 0.0)]).starts_with("tooth.width"));
-    assert!(told(&[("cell.height", 8e-3)]).starts_with("cell.height"));
-    assert!(told(&[("drive.amplitude", 0.7)]).starts_with("cell.height"));
+    assert!(message(&[("disk.radius_min", 2e-3)]).starts_with("disk.radius_min"));
+    assert!(message(&[("disk.radius_max", 9e-3)]).starts_with("tooth.count"));
+    assert!(message(&[("tooth.width", 2e-6), ("tooth.tip_radius", 0.0)]).starts_with("tooth.width"));
+    assert!(message(&[("cell.height", 8e-3)]).starts_with("cell.height"));
+    assert!(message(&[("drive.amplitude", 0.7)]).starts_with("cell.height"));
     let mut values = values_of::<RatchetOnInput>(DEFAULT, &[]);
     let mut ratchet = RatchetOnInput::new(DEFAULT, 0.0, &values).unwrap();
     values.set_by_name("base.displacement", Value::Real(0.7)).unwrap();

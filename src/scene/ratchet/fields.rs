@@ -48,8 +48,8 @@ impl RatchetOnSine {
             phases: resolution.phases,
             ceiling: state.boundary.ceiling(),
         };
-        let times = (self.report.time, state.epoch);
-        FlowFields::new(grid, self.masses.clone(), self.gravity, drive, times)
+        let (masses, start) = (self.masses.clone(), self.report.time);
+        FlowFields::new(grid, masses, self.gravity, drive, start, state.epoch)
     }
 
     /// Shows the flights that still go on: once, when nothing more is to be observed. Returns the present time \[s\].

@@ -11,9 +11,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::process::ExitCode;
 
 use cpu_time::ProcessTime;
-use jostle::contact::{ElasticSkin, LinearDashpot};
+use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
-use jostle::engine::molecular_dynamics::{ContactLaws, MolecularDynamics, Setup, VelocityVerlet};
+use jostle::engine::Engine;
+use jostle::engine::dem::{ContactLaws, Setup, Verlet};
 use jostle::geometry::{Disk, Wall};
 
 const AMPLITUDE: f64 = 1.5514e-4;
@@ -69,18 +70,18 @@ fn run(arguments: &[String]) -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-fn engine(disks: &[Disk], width: f64, time_step: f64) -> MolecularDynamics<VelocityVerlet, Sine> {
+fn engine(disks: &[Disk], width: f64, time_step: f64) -> Verlet<Sine> {
     let normal = LinearDashpot {
         stiffness: 1e4,
         damping: 0.1,
     };
-    let skin = ElasticSkin {
+    let tangential = TangentialSpring {
         stiffness: 0.77e4,
         friction: 0.1,
     };
     let lowered: Vec<Disk> = disks.iter().map(|disk| disk.raised(-AMPLITUDE)).collect();
     let setup = Setup {
-        laws: ContactLaws { normal, skin },
+        laws: ContactLaws { normal, tangential },
         walls: vec![
             Wall::vibrating_floor(),
             Wall::left(-0.5 * width),
@@ -97,5 +98,5 @@ fn engine(disks: &[Disk], width: f64, time_step: f64) -> MolecularDynamics<Veloc
         frequency: 80.0,
         phase: -FRAC_PI_2,
     };
-    MolecularDynamics::new(setup, &lowered, base)
+    Verlet::new(setup, &lowered, base)
 }

@@ -10,10 +10,11 @@
 //! of chaos.
 
 use cpu_time::ProcessTime;
-use jostle::contact::{ElasticSkin, LinearDashpot};
+use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
-use jostle::engine::located_dynamics::LocatedDynamics;
-use jostle::engine::molecular_dynamics::{ContactLaws, Gear5, Integrator, MolecularDynamics, Setup, VelocityVerlet};
+use jostle::engine::Engine;
+use jostle::engine::dem::verlet::{Gear5, Integrator, PredictorCorrector, VelocityVerlet};
+use jostle::engine::dem::{ContactLaws, EventLocated, FixedGrid, Setup};
 use jostle::geometry::{Disk, Wall};
 use jostle::packing::{RadiusDistribution, advancing_front};
 
@@ -28,7 +29,7 @@ const LAWS: ContactLaws = ContactLaws {
         stiffness: 1e4,
         damping: 0.1,
     },
-    skin: ElasticSkin {
+    tangential: TangentialSpring {
         stiffness: 0.77e4,
         friction: 0.1,
     },
@@ -79,29 +80,29 @@ impl Case {
 }
 
 fn located(case: &Case, time_step: f64) -> Run {
-    let mut engine = LocatedDynamics::new(case.setup(time_step), &case.disks, case.drive);
-    engine.set_motion(|state| state.rates.clone_from(&case.rates));
+    let mut engine = EventLocated::new(case.setup(time_step), &case.disks, case.drive);
+    engine.set_motion(|disks| disks.velocities.clone_from(&case.rates));
     let start = ProcessTime::now();
     engine.advance_to(case.end).expect("runs");
     let seconds = start.elapsed().as_secs_f64();
     Run {
-        places: engine.now().places.clone(),
-        rates: engine.now().rates.clone(),
+        places: engine.now().disks.positions.clone(),
+        rates: engine.now().disks.velocities.clone(),
         seconds,
         evaluations: 2 * engine.now().steps,
     }
 }
 
 fn fixed<I: Integrator>(case: &Case, time_step: f64) -> Run {
-    let mut engine = MolecularDynamics::<I, _>::new(case.setup(time_step), &case.disks, case.drive);
+    let mut engine = FixedGrid::<PredictorCorrector<I>, _>::new(case.setup(time_step), &case.disks, case.drive);
     let count = case.disks.len();
-    engine.set_motion(|state| state.velocity[..3 * count].copy_from_slice(case.rates.as_flattened()));
+    engine.set_motion(|disks| disks.velocity[..3 * count].copy_from_slice(case.rates.as_flattened()));
     let start = ProcessTime::now();
     engine.advance_to(case.end).expect("runs");
     let seconds = start.elapsed().as_secs_f64();
     Run {
-        places: engine.now().places()[..count].to_vec(),
-        rates: engine.now().rates()[..count].to_vec(),
+        places: engine.observables().positions[..count].to_vec(),
+        rates: engine.observables().velocities[..count].to_vec(),
         seconds,
         evaluations: engine.now().steps,
     }
@@ -128,8 +129,8 @@ fn impact() {
         mass: mass(RADIUS),
         normal_stiffness: LAWS.normal.stiffness,
         normal_damping: LAWS.normal.damping,
-        tangential_stiffness: LAWS.skin.stiffness,
-        friction: LAWS.skin.friction,
+        tangential_stiffness: LAWS.tangential.stiffness,
+        friction: LAWS.tangential.friction,
         normal_velocity: velocity[1],
         tangential_velocity: tangential,
     };

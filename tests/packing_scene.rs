@@ -6,16 +6,17 @@ mod support;
 
 use jostle::Error;
 use jostle::drive::{FollowsInput, Sine};
-use jostle::engine::located_dynamics::LocatedDynamics;
-use jostle::engine::molecular_dynamics::{Gear5, MolecularDynamics, VelocityVerlet};
+use jostle::engine::dem::event_located::EventStepper;
+use jostle::engine::dem::verlet::{Gear5, PredictorCorrector, VelocityVerlet};
 use jostle::packing::{RadiusDistribution, advancing_front, mirrored};
-use jostle::scene::packing::soft::SoftEngine;
-use jostle::scene::packing::{Packing, PackingOnInput, PackingOnSine, SoftPacking};
+use jostle::scene::base_drive::BaseDrive;
+use jostle::scene::packing::soft::SoftMethod;
+use jostle::scene::packing::{PackingOnInput, PackingOnSine, SoftPacking};
 use jostle::scene::{Choice, Scene, Value};
 use support::{order, outputs_of, values_of};
 
-type Verlet<D> = MolecularDynamics<VelocityVerlet, D>;
-type Gear<D> = MolecularDynamics<Gear5, D>;
+type Verlet = PredictorCorrector<VelocityVerlet>;
+type Gear = PredictorCorrector<Gear5>;
 
 const SIXTY: Choice = Choice { disks: 60 };
 
@@ -25,9 +26,9 @@ fn at_gamma(gamma: f64) -> (&'static str, f64) {
 }
 
 /// Change of momentum = gravity + impulses of the walls, and the reaction forces reported add up to the base's impulse.
-fn momentum_balance<E: SoftEngine>(name: &str) {
-    let values = values_of::<SoftPacking<E>>(SIXTY, &[at_gamma(8.0)]);
-    let mut packing = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
+fn momentum_balance<M: SoftMethod, D: BaseDrive>(name: &str) {
+    let values = values_of::<SoftPacking<M, D>>(SIXTY, &[at_gamma(8.0)]);
+    let mut packing = SoftPacking::<M, D>::new(SIXTY, 0.0, &values).unwrap();
     let mass: f64 = packing.engine().setup().masses.iter().sum();
     let (step, count) = (3.3e-4, 3000);
     let mut reported = 0.0;
@@ -37,7 +38,7 @@ fn momentum_balance<E: SoftEngine>(name: &str) {
     }
     let engine = packing.engine();
     let momentum = |axis: usize| -> f64 {
-        let parts = engine.look().rates.iter().zip(&engine.setup().masses);
+        let parts = engine.observables().velocities.iter().zip(&engine.setup().masses);
         parts.map(|(rate, mass)| mass * rate[axis]).sum()
     };
     let (px, py) = (momentum(0), momentum(1));
@@ -53,17 +54,17 @@ fn momentum_balance<E: SoftEngine>(name: &str) {
 
 #[test]
 fn momentum_balances_to_rounding() {
-    momentum_balance::<Verlet<Sine>>("velocity Verlet");
-    momentum_balance::<Gear<Sine>>("Gear 5");
-    momentum_balance::<LocatedDynamics<Sine>>("located events");
+    momentum_balance::<Verlet, Sine>("velocity Verlet");
+    momentum_balance::<Gear, Sine>("Gear 5");
+    momentum_balance::<EventStepper, Sine>("located events");
 }
 
 /// Residual of the energy balance of a shaken packing, root mean square over seeds, over the energy put in and out.
-fn energy_residual<E: SoftEngine>(time_step: f64) -> f64 {
+fn energy_residual<M: SoftMethod, D: BaseDrive>(time_step: f64) -> f64 {
     let residuals = (1..=6).map(|seed| {
         let changes = [at_gamma(4.0), ("time_step", time_step), ("seed", f64::from(seed))];
-        let values = values_of::<SoftPacking<E>>(SIXTY, &changes);
-        let mut packing = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
+        let values = values_of::<SoftPacking<M, D>>(SIXTY, &changes);
+        let mut packing = SoftPacking::<M, D>::new(SIXTY, 0.0, &values).unwrap();
         packing.advance_to(0.15, &values).unwrap();
         let outputs = outputs_of(&packing, &values);
         outputs.real("energy.residual") / outputs.real("energy.lost")
@@ -76,8 +77,8 @@ fn energy_residual<E: SoftEngine>(time_step: f64) -> f64 {
 #[test]
 fn energy_balances_with_the_step() {
     for (name, residual) in [
-        ("velocity Verlet", energy_residual::<Verlet<Sine>> as fn(f64) -> f64),
-        ("Gear 5", energy_residual::<Gear<Sine>>),
+        ("velocity Verlet", energy_residual::<Verlet, Sine> as fn(f64) -> f64),
+        ("Gear 5", energy_residual::<Gear, Sine>),
     ] {
         let residuals = [1.6e-5, 4e-6, 1e-6].map(residual);
         let order = order(residuals[0], residuals[2], 16.0);
@@ -89,7 +90,7 @@ fn energy_balances_with_the_step() {
 /// With located events the balance closes at the order of the method.
 #[test]
 fn energy_balances_better_with_located_events() {
-    let residuals = [8e-5, 4e-5, 2e-5, 1e-5].map(energy_residual::<LocatedDynamics<Sine>>);
+    let residuals = [8e-5, 4e-5, 2e-5, 1e-5].map(energy_residual::<EventStepper, Sine>);
     let order = order(residuals[0], residuals[3], 8.0);
     println!("located events: energy residual over losses at 80, 40, 20, 10 us {residuals:?}, order {order:.2}");
     assert!(order > 2.5 && residuals[3] < 1e-6, "{residuals:?}");
@@ -98,25 +99,25 @@ fn energy_balances_better_with_located_events() {
 /// A packing and its mirror image turn oppositely, to the last bit, since the box is centred and sums run alike.
 #[test]
 fn mirrored_packings_turn_oppositely() {
-    turn_oppositely::<Verlet<Sine>>();
-    turn_oppositely::<LocatedDynamics<Sine>>();
+    turn_oppositely::<Verlet, Sine>();
+    turn_oppositely::<EventStepper, Sine>();
 }
 
-fn turn_oppositely<E: SoftEngine>() {
-    let values = values_of::<SoftPacking<E>>(SIXTY, &[at_gamma(4.0)]);
+fn turn_oppositely<M: SoftMethod, D: BaseDrive>() {
+    let values = values_of::<SoftPacking<M, D>>(SIXTY, &[at_gamma(4.0)]);
     let radii = RadiusDistribution::default().sample(60, 5).unwrap();
     let disks = advancing_front(&radii, 0.4).unwrap();
-    let mut packing = SoftPacking::<E>::of_disks(&disks, 0.0, &values).unwrap();
-    let mut image = SoftPacking::<E>::of_disks(&mirrored(&disks), 0.0, &values).unwrap();
+    let mut packing = SoftPacking::<M, D>::of_disks(&disks, 0.0, &values).unwrap();
+    let mut image = SoftPacking::<M, D>::of_disks(&mirrored(&disks), 0.0, &values).unwrap();
     for i in 1..=20 {
         packing.advance_to(f64::from(i) * 0.05, &values).unwrap();
         image.advance_to(f64::from(i) * 0.05, &values).unwrap();
-        let places = packing.engine().look().places.iter();
-        for (place, mirror) in places.zip(image.engine().look().places) {
+        let places = packing.engine().observables().positions.iter();
+        for (place, mirror) in places.zip(image.engine().observables().positions) {
             assert_eq!([place[0], place[1], place[2]], [-mirror[0], mirror[1], -mirror[2]]);
         }
     }
-    let places = packing.engine().look().places.iter();
+    let places = packing.engine().observables().positions.iter();
     let turned = places.map(|place| place[2].abs()).fold(0.0, f64::max);
     assert!(turned > 0.01, "nothing turned: {turned}");
 }
@@ -146,27 +147,27 @@ fn base_carries_the_weight() {
 /// One step of 2h is two of h, to the bit, however h and the time step relate, and so is a step cut in odd pieces.
 #[test]
 fn split_steps_give_the_same_bits() {
-    split_as_one::<Verlet<Sine>>();
-    split_as_one::<LocatedDynamics<Sine>>();
+    split_as_one::<Verlet, Sine>();
+    split_as_one::<EventStepper, Sine>();
 }
 
-fn split_as_one<E: SoftEngine>() {
-    let values = values_of::<SoftPacking<E>>(SIXTY, &[at_gamma(6.0)]);
+fn split_as_one<M: SoftMethod, D: BaseDrive>() {
+    let values = values_of::<SoftPacking<M, D>>(SIXTY, &[at_gamma(6.0)]);
     let ends = [
         vec![0.1],
         vec![0.05, 0.1],
         vec![1e-7, 0.012_345_6, 0.07, 0.070_000_1, 0.099_999_999, 0.1],
     ];
     let states = ends.map(|ends| {
-        let mut packing = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
+        let mut packing = SoftPacking::<M, D>::new(SIXTY, 0.0, &values).unwrap();
         for end in ends {
             packing.advance_to(end, &values).unwrap();
         }
-        let now = packing.engine().look();
+        let now = packing.engine().observables();
         (
             packing.state().engine,
-            now.places.to_vec(),
-            now.rates.to_vec(),
+            now.positions.to_vec(),
+            now.velocities.to_vec(),
             now.energy_lost,
         )
     });
@@ -177,13 +178,13 @@ fn split_as_one<E: SoftEngine>() {
 /// same bits, also in another instance.
 #[test]
 fn rollback_gives_the_same_bits() {
-    roll_back::<Verlet<FollowsInput>>();
-    roll_back::<LocatedDynamics<FollowsInput>>();
+    roll_back::<Verlet, FollowsInput>();
+    roll_back::<EventStepper, FollowsInput>();
 }
 
-fn roll_back<E: SoftEngine>() {
-    let mut values = values_of::<SoftPacking<E>>(SIXTY, &[]);
-    let shake = |packing: &mut SoftPacking<E>, values: &mut jostle::scene::Values, from: u32, to: u32| {
+fn roll_back<M: SoftMethod, D: BaseDrive>() {
+    let mut values = values_of::<SoftPacking<M, D>>(SIXTY, &[]);
+    let shake = |packing: &mut SoftPacking<M, D>, values: &mut jostle::scene::Values, from: u32, to: u32| {
         let step = 1.0 / (80.0 * 24.0);
         for i in from..to {
             let phase = std::f64::consts::TAU * f64::from(i) / 24.0;
@@ -197,14 +198,14 @@ fn roll_back<E: SoftEngine>() {
             packing.advance_to(f64::from(i + 1) * step, values).unwrap();
         }
     };
-    let mut packing = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
+    let mut packing = SoftPacking::<M, D>::new(SIXTY, 0.0, &values).unwrap();
     shake(&mut packing, &mut values, 0, 500);
     let saved = packing.state();
     let seen = outputs_of(&packing, &values);
     shake(&mut packing, &mut values, 500, 900);
     let ahead = (packing.state(), outputs_of(&packing, &values));
 
-    let mut other = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
+    let mut other = SoftPacking::<M, D>::new(SIXTY, 0.0, &values).unwrap();
     for again in [&mut packing, &mut other] {
         again.restore(&saved).unwrap();
         assert_eq!(outputs_of(again, &seen), seen);
@@ -232,13 +233,13 @@ fn threads_give_the_same_bits() {
 /// A base that jumps by a metre is refused; the state stays, and the same step with tame inputs is then done.
 #[test]
 fn a_refused_step_keeps_the_state() {
-    refuse_a_step::<Verlet<FollowsInput>>();
-    refuse_a_step::<LocatedDynamics<FollowsInput>>();
+    refuse_a_step::<Verlet, FollowsInput>();
+    refuse_a_step::<EventStepper, FollowsInput>();
 }
 
-fn refuse_a_step<E: SoftEngine>() {
-    let mut values = values_of::<SoftPacking<E>>(SIXTY, &[]);
-    let mut packing = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
+fn refuse_a_step<M: SoftMethod, D: BaseDrive>() {
+    let mut values = values_of::<SoftPacking<M, D>>(SIXTY, &[]);
+    let mut packing = SoftPacking::<M, D>::new(SIXTY, 0.0, &values).unwrap();
     packing.advance_to(0.01, &values).unwrap();
     let before = packing.state();
     values.set_by_name("base.displacement", Value::Real(1.0)).unwrap();
@@ -275,11 +276,11 @@ fn parameters_that_cannot_work_are_refused_by_name() {
 #[test]
 fn packing_starts_on_the_base() {
     let values = values_of::<PackingOnInput>(SIXTY, &[("base.displacement", 0.25)]);
-    let packing = Packing::<FollowsInput, VelocityVerlet>::new(SIXTY, 0.0, &values).unwrap();
+    let packing = PackingOnInput::new(SIXTY, 0.0, &values).unwrap();
     let lowest = packing
         .engine()
-        .now()
-        .places()
+        .observables()
+        .positions
         .iter()
         .zip(packing.engine().radii())
         .map(|(place, radius)| place[1] - radius)

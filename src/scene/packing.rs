@@ -9,13 +9,12 @@ pub mod soft;
 
 use serde::{Deserialize, Serialize};
 
-use crate::contact::{ElasticSkin, LinearDashpot};
-use crate::drive::{Drive, FollowsInput, Sine};
-use crate::engine::located_dynamics::LocatedDynamics;
-use crate::engine::molecular_dynamics::{
-    Breakdown, ContactLaws, MolecularDynamics, Setup, TimeStepLimits, VelocityVerlet,
-};
-use crate::engine::{MOST_WORK_IN_A_CALL, Work};
+use crate::contact::{ContactLaws, LinearDashpot, TangentialSpring};
+use crate::drive::{FollowsInput, Sine};
+use crate::engine::dem::event_located::EventStepper;
+use crate::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
+use crate::engine::dem::{Breakdown, FixedGrid, Observables, Setup, State, TimeStepLimits};
+use crate::engine::{Engine, MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::{Error, Result, are_sane};
 use crate::geometry::{Disk, Wall};
 use crate::packing::{RadiusClass, RadiusDistribution, advancing_front};
@@ -23,31 +22,28 @@ use crate::packing::{RadiusClass, RadiusDistribution, advancing_front};
 use super::base_drive::BaseDrive;
 use super::{Card, Choice, Scene};
 use crate::scene::{OutputWriter, Values, Variable};
-use soft::SoftEngine;
+use soft::SoftMethod;
 
 /// Packing whose base follows the inputs `base.displacement` and `base.velocity`.
-pub type PackingOnInput = Packing<FollowsInput, VelocityVerlet>;
+pub type PackingOnInput = SoftPacking<PredictorCorrector<VelocityVerlet>, FollowsInput>;
 
 /// Packing whose base moves as a sine.
-pub type PackingOnSine = Packing<Sine, VelocityVerlet>;
+pub type PackingOnSine = SoftPacking<PredictorCorrector<VelocityVerlet>, Sine>;
 
 /// The same on inputs and on a sine, of fourth order with located contact events.
-pub type LocatedPackingOnInput = SoftPacking<LocatedDynamics<FollowsInput>>;
+pub type LocatedPackingOnInput = SoftPacking<EventStepper, FollowsInput>;
 /// See [`LocatedPackingOnInput`].
-pub type LocatedPackingOnSine = SoftPacking<LocatedDynamics<Sine>>;
-
-/// Packing with drive D and integrator I of steps that do not know of contact events.
-pub type Packing<D, I> = SoftPacking<MolecularDynamics<I, D>>;
+pub type LocatedPackingOnSine = SoftPacking<EventStepper, Sine>;
 
 const NAME: &str = "packing";
 
 /// Index of the vibrating floor among the walls.
 const FLOOR: usize = 0;
 
-/// Disks in a box of two walls and a vibrating floor, advanced by the engine E.
+/// Disks in a box of two walls and a floor that vibrates with the drive D, advanced by the method M.
 #[derive(Debug)]
-pub struct SoftPacking<E> {
-    engine: E,
+pub struct SoftPacking<M: SoftMethod, D> {
+    engine: FixedGrid<M, D>,
     limits: TimeStepLimits,
     /// Work that one call may do.
     most_work: u64,
@@ -76,24 +72,24 @@ pub struct PackingState<S> {
     pub report: Report,
 }
 
-impl<E: SoftEngine> SoftPacking<E> {
+impl<M: SoftMethod, D: BaseDrive> SoftPacking<M, D> {
     /// A packing of given `disks` at rest, in a box of the width that `values` tell.
     ///
     /// # Errors
     /// A time step that the contacts do not allow, by name.
     pub fn of_disks(disks: &[Disk], start_time: f64, values: &Values) -> Result<Self> {
-        let drive = E::Drive::new(start_time, values)?;
+        let drive = D::new(start_time, values)?;
         let normal = LinearDashpot {
             stiffness: values.real("contact.normal_stiffness"),
             damping: values.real("contact.normal_damping"),
         };
-        let skin = ElasticSkin {
+        let tangential = TangentialSpring {
             stiffness: values.real("contact.stiffness_ratio") * normal.stiffness,
             friction: values.real("contact.friction"),
         };
-        let laws = ContactLaws { normal, skin };
+        let laws = ContactLaws { normal, tangential };
         let masses = masses_of(disks, values);
-        let limits = E::limits(&laws, &masses, drive.frequency(), values);
+        let limits = M::limits(&laws, &masses, drive.frequency(), values);
         let time_step = chosen_time_step(values.real("time_step"), &limits)?;
         let half_width = 0.5 * values.real("box.width");
         let walls = vec![
@@ -114,7 +110,7 @@ impl<E: SoftEngine> SoftPacking<E> {
             time_step,
             start_time,
         };
-        let engine = E::new(setup, &disks, drive);
+        let engine = FixedGrid::new(setup, &disks, drive);
         let energies = engine.energies();
         let start_energy = energies.kinetic + energies.potential + energies.elastic;
         let report = Report {
@@ -131,8 +127,8 @@ impl<E: SoftEngine> SoftPacking<E> {
         })
     }
 
-    /// The engine, to look at everything that is no output.
-    pub fn engine(&self) -> &E {
+    /// The engine, to observe everything that is no output.
+    pub fn engine(&self) -> &FixedGrid<M, D> {
         &self.engine
     }
 }
@@ -228,16 +224,16 @@ pub(super) fn refusal_of(scene: &'static str, breakdown: Breakdown) -> Error {
     }
 }
 
-impl<E: SoftEngine> Scene for SoftPacking<E> {
-    type State = PackingState<E::State>;
+impl<M: SoftMethod, D: BaseDrive> Scene for SoftPacking<M, D> {
+    type State = PackingState<State<D, M::Disks>>;
 
     fn card() -> Card {
         Card {
             scene: NAME,
-            identifier: E::IDENTIFIER,
-            engine: E::NAME,
-            drive: E::Drive::NAME,
-            description: E::DESCRIPTION,
+            identifier: M::IDENTIFIERS[usize::from(!D::STEERED)],
+            engine: M::NAME,
+            drive: D::NAME,
+            description: M::DESCRIPTION,
             equations: equations::HTML,
             disks: 1..=100_000,
             default_disks: 60,
@@ -247,11 +243,11 @@ impl<E: SoftEngine> Scene for SoftPacking<E> {
     }
 
     fn variables(choice: Choice) -> Vec<Variable> {
-        rows::rows(choice, E::parameters(), E::Drive::variables())
+        rows::rows(choice, M::parameters(), D::variables())
     }
 
     fn initial_dependencies(name: &str) -> Option<Vec<&'static str>> {
-        Some(initial::of_soft::<E::Drive>(name))
+        Some(initial::of_soft::<D>(name))
     }
 
     fn new(choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
@@ -264,7 +260,10 @@ impl<E: SoftEngine> Scene for SoftPacking<E> {
         let duration = end_time - from.time;
         let drive = self.engine.drive_mut().clone();
         self.engine.drive_mut().aim(from.time, duration, values);
-        if let Err(breakdown) = self.engine.advance_within(end_time, &mut Work::at_most(self.most_work)) {
+        if let Err(breakdown) = self
+            .engine
+            .advance_within(end_time, &mut WorkBudget::at_most(self.most_work))
+        {
             *self.engine.drive_mut() = drive;
             return Err(refusal(breakdown));
         }
@@ -284,9 +283,12 @@ impl<E: SoftEngine> Scene for SoftPacking<E> {
     }
 
     fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
-        let (engine, now) = (&self.engine, self.engine.look());
-        let soft::Look { places, rates, .. } = now;
-        let mean = |axis: usize| rates.iter().map(|rate| rate[axis]).sum::<f64>() / rates.len() as f64;
+        let (engine, now) = (&self.engine, self.engine.observables());
+        let Observables {
+            positions, velocities, ..
+        } = now;
+        let mean =
+            |axis: usize| velocities.iter().map(|velocity| velocity[axis]).sum::<f64>() / velocities.len() as f64;
         let energies = engine.energies();
         let total = energies.kinetic + energies.potential + energies.elastic;
         outputs.real("chosen_time_step", engine.setup().time_step);
@@ -307,10 +309,10 @@ impl<E: SoftEngine> Scene for SoftPacking<E> {
             total - self.report.start_energy - now.energy_input + now.energy_lost,
         );
         outputs.integer("contacts", i64::from(now.contacts));
-        outputs.reals("disk.angle", places.iter().map(|place| place[2]));
-        outputs.reals("disk.angular_velocity", rates.iter().map(|rate| rate[2]));
-        outputs.reals("disk.x", places.iter().map(|place| place[0]));
-        outputs.reals("disk.y", places.iter().map(|place| place[1]));
+        outputs.reals("disk.angle", positions.iter().map(|position| position[2]));
+        outputs.reals("disk.angular_velocity", velocities.iter().map(|velocity| velocity[2]));
+        outputs.reals("disk.x", positions.iter().map(|position| position[0]));
+        outputs.reals("disk.y", positions.iter().map(|position| position[1]));
         outputs.finish();
     }
 

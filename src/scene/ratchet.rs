@@ -14,7 +14,7 @@ use crate::engine::event_driven::{
     EventDriven, Gravity, Moving, Observer, Partner, PeriodicAcross, Sawtooth, Settings, State, Stop, Unobserved,
     VibratingBase,
 };
-use crate::engine::{MOST_WORK_IN_A_CALL, Work};
+use crate::engine::{MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::{Error, Result, are_sane};
 use crate::measure::Transport;
 
@@ -139,7 +139,7 @@ where
             let change = |boundary: &mut Sawtooth<D>| boundary.set_base(base);
             self.engine.change_boundary_observed(from, change, observer);
         }
-        let mut work = Work::at_most(self.most_work);
+        let mut work = WorkBudget::at_most(self.most_work);
         let mark = values.real("measure.mark");
         if mark != self.averages.mark {
             let transport = Transport::new(from);

@@ -11,8 +11,8 @@ mod rows;
 use serde::{Deserialize, Serialize};
 
 use crate::drive::excitation::{HarmonicTorque, HeldTorque, Piece, RandomSupports, SineSupports};
-use crate::engine::three_disk::{Record, Setup, State, Stuck, ThreeDisk as Engine, TimeStepLimits, equilibrium};
-use crate::engine::{MOST_WORK_IN_A_CALL, Work};
+use crate::engine::disk_on_two_supports::{DiskOnTwoSupports, Record, Setup, State, Stop, TimeStepLimits, equilibrium};
+use crate::engine::{Engine, MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::{Error, Result, are_sane};
 use crate::measure::BatchMeans;
 
@@ -34,13 +34,10 @@ const NAME: &str = "three_disk";
 /// First duration of a batch of the running standard error \[s\] where no period is known; it doubles as the run goes on.
 const FIRST_BATCH: f64 = 1e-2;
 
-/// Work of a time step, in events of the other engines.
-const WORK_OF_STEP: f64 = 10.0;
-
 /// A disk on two supports, driven by E.
 #[derive(Debug)]
 pub struct ThreeDisk<E> {
-    engine: Engine<E>,
+    engine: DiskOnTwoSupports<E>,
     /// Energy at the start \[J\].
     energy: f64,
     /// Work that one call may do.
@@ -81,12 +78,15 @@ pub struct ThreeDiskState<E> {
     pub report: Report,
 }
 
-fn refusal(stuck: Stuck) -> Error {
-    Error::Step {
-        scene: NAME,
-        time: stuck.time,
-        what: "no progress: contacts change more than 1000 times in one time step".into(),
-        remedy: "Lower time_step, or raise contact.normal_damping.".into(),
+fn refusal(stop: Stop) -> Error {
+    match stop {
+        Stop::NoProgress { time } => Error::Step {
+            scene: NAME,
+            time,
+            what: "no progress: contacts change more than 1000 times in one time step".into(),
+            remedy: "Lower time_step, or raise contact.normal_damping.".into(),
+        },
+        Stop::TooManySteps { time, steps } => Error::too_much_work(NAME, time, format!("{steps:e} time steps")),
     }
 }
 
@@ -107,7 +107,7 @@ fn chosen_time_step(given: f64, limits: &TimeStepLimits) -> Result<f64> {
 
 impl<E: ThreeDiskDrive> ThreeDisk<E> {
     /// The engine, to look at everything that is no output.
-    pub fn engine(&self) -> &Engine<E> {
+    pub fn engine(&self) -> &DiskOnTwoSupports<E> {
         &self.engine
     }
 
@@ -154,7 +154,7 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
         let reached = match checked(self) {
             Ok(reached) => reached,
             Err(error) => {
-                self.engine.restore(&backup.engine);
+                self.engine.resume(&backup.engine);
                 self.report = backup.report;
                 return Err(error);
             }
@@ -171,23 +171,19 @@ impl<E: ThreeDiskDrive> ThreeDisk<E> {
     }
 
     fn check_work(&self, end_time: f64) -> Result<()> {
-        let from = self.report.time;
-        let time_steps = (end_time - from) / self.engine.setup().time_step;
-        match Work::at_most(self.most_work).spend((time_steps * WORK_OF_STEP) as u64) {
-            true => Ok(()),
-            false => Err(Error::too_much_work(NAME, from, format!("{time_steps:e} time steps"))),
-        }
+        let mut budget = WorkBudget::at_most(self.most_work);
+        self.engine.spend(end_time, &mut budget).map_err(refusal)
     }
 
     /// Whether the disk, its energies and its forces are finite and far from overflow.
     fn is_sane(&self) -> bool {
-        let look = self.engine.look();
+        let seen = self.engine.observe();
         let Energies {
             kinetic,
             potential,
             elastic,
-        } = energies(&self.engine, &look);
-        let forces = look.contacts.iter().flat_map(|at| [at.normal, at.tangential]);
+        } = energies(&self.engine, &seen);
+        let forces = seen.contacts.iter().flat_map(|at| [at.normal, at.tangential]);
         self.engine.state().now.is_sane() && are_sane([kinetic, potential, elastic]) && are_sane(forces)
     }
 
@@ -248,15 +244,15 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
     }
 
     fn new(_choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
-        let bench = rows::bench(values)?;
-        let limits = TimeStepLimits::of(&bench, E::period(values));
+        let rig = rows::rig(values)?;
+        let limits = TimeStepLimits::of(&rig, E::period(values));
         let time_step = chosen_time_step(values.real("time_step"), &limits)?;
         let excitation = E::new(start_time, time_step, values);
-        let rest = equilibrium(&bench, &excitation.piece(start_time).supports(0.0)).map_err(|_| {
-            let weight = bench.mass * bench.gravity;
+        let rest = equilibrium(&rig, &excitation.piece(start_time).supports(0.0)).map_err(|_| {
+            let weight = rig.mass * rig.gravity;
             Error::parameter(
                 "contact.normal_stiffness",
-                format!("{} N/m", bench.normal.stiffness),
+                format!("{} N/m", rig.normal.stiffness),
                 format!(
                     "so large that the weight {weight} N rests on both contacts with overlaps far below the radius"
                 ),
@@ -265,13 +261,13 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
         })?;
         let place = [rest[0], rest[1] + values.real("disk.drop_height"), 0.0];
         let rates = [0.0, 0.0, values.real("disk.initial_angular_velocity")];
-        let engine = Engine::new(Setup::new(bench, time_step), excitation, start_time, place, rates);
+        let engine = DiskOnTwoSupports::new(Setup::new(rig, time_step), excitation, start_time, place, rates);
         let begin = start_time.max(values.real("measure.start"));
         let Energies {
             kinetic,
             potential,
             elastic,
-        } = energies(&engine, &engine.look());
+        } = energies(&engine, &engine.observe());
         let mut scene = Self {
             engine,
             energy: kinetic + potential + elastic,
@@ -343,9 +339,9 @@ impl<E: ThreeDiskDrive> Scene for ThreeDisk<E> {
             return Err(refused());
         }
         let former = self.engine.state().clone();
-        self.engine.restore(engine);
+        self.engine.resume(engine);
         if !self.is_sane() {
-            self.engine.restore(&former);
+            self.engine.resume(&former);
             return Err(refused());
         }
         self.report = state.report.clone();

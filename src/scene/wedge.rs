@@ -13,8 +13,7 @@ mod soft;
 use serde::{Deserialize, Serialize};
 
 use crate::drive::{FollowsInput, Sine};
-use crate::engine::molecular_dynamics::VelocityVerlet;
-use crate::engine::{MOST_WORK_IN_A_CALL, Work};
+use crate::engine::{MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::{Error, Result, are_sane};
 use crate::measure::BatchMeans;
 
@@ -31,7 +30,7 @@ pub type WedgeMap = Wedge<Map>;
 pub type WedgeEventDriven<D> = Wedge<EventDriven<D>>;
 
 /// Disk in a wedge that moves with the drive D, by molecular dynamics.
-pub type WedgeMolecularDynamics<D> = Wedge<Soft<VelocityVerlet, D>>;
+pub type WedgeMolecularDynamics<D> = Wedge<Soft<D>>;
 
 /// [`WedgeEventDriven`] on a sine.
 pub type WedgeEventDrivenOnSine = WedgeEventDriven<Sine>;
@@ -90,7 +89,7 @@ impl<E: Engine> Wedge<E> {
 
     /// Runs to `end_time`, reading the angle wherever a batch ends. Engines look at no cost to what follows.
     fn run(&mut self, end_time: f64) -> Result<()> {
-        let mut work = Work::at_most(self.most_work);
+        let mut work = WorkBudget::at_most(self.most_work);
         while self.report.turning.due() <= end_time {
             let due = self.report.turning.due();
             self.engine.advance_to(due, &mut work)?;

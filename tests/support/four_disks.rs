@@ -1,10 +1,11 @@
 //! The same four disks by both engines: hard, and soft with contacts of a given stiffness.
 
 use jostle::collision::Dashpot;
-use jostle::contact::{ElasticSkin, LinearDashpot};
+use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
+use jostle::engine::Engine;
+use jostle::engine::dem::{ContactLaws, Setup, TimeStepLimits, Verlet};
 use jostle::engine::event_driven::{EventDriven, Gravity, Moving, Open, Settings, Walls};
-use jostle::engine::molecular_dynamics::{ContactLaws, MolecularDynamics, Setup, TimeStepLimits, VelocityVerlet};
 use jostle::geometry::{Disk, Wall};
 
 const DISKS: [Disk; 4] = [
@@ -79,12 +80,12 @@ fn hard(stiffness: f64, damping: f64) -> Vec<[f64; 3]> {
 fn soft(stiffness: f64, damping: f64) -> Vec<[f64; 3]> {
     let laws = ContactLaws {
         normal: LinearDashpot { stiffness, damping },
-        skin: ElasticSkin {
+        tangential: TangentialSpring {
             stiffness: 0.77 * stiffness,
             friction: 0.2,
         },
     };
-    let time_step = 0.3 * TimeStepLimits::of(&laws, &masses(), None).default;
+    let time_step = 0.3 * TimeStepLimits::verlet(&laws, &masses(), None).default;
     let walls = WALLS.to_vec();
     let setup = Setup {
         laws,
@@ -94,7 +95,7 @@ fn soft(stiffness: f64, damping: f64) -> Vec<[f64; 3]> {
         time_step,
         start_time: 0.0,
     };
-    let mut engine = MolecularDynamics::<VelocityVerlet, _>::new(setup, &DISKS, drive());
+    let mut engine = Verlet::new(setup, &DISKS, drive());
     engine.set_motion(|state| {
         state
             .velocity
@@ -103,7 +104,7 @@ fn soft(stiffness: f64, damping: f64) -> Vec<[f64; 3]> {
             .for_each(|(to, from)| *to = *from);
     });
     engine.advance_to(END).unwrap();
-    engine.now().places()[..4].to_vec()
+    engine.observables().positions[..4].to_vec()
 }
 
 /// Distance \[m\] in place, and in angle by the radius, of the two engines after the same flight, at a stiffness k_n.

@@ -3,8 +3,9 @@
 //! A new engine is one more implementation, and one more line in [`each_engine`].
 
 use jostle::drive::Sine;
-use jostle::engine::located_dynamics::LocatedDynamics;
-use jostle::engine::molecular_dynamics::{Breakdown, Gear5, Integrator, MolecularDynamics, Setup, VelocityVerlet};
+use jostle::engine::Engine;
+use jostle::engine::dem::verlet::{Integrator, PredictorCorrector};
+use jostle::engine::dem::{self, Breakdown, EventLocated, FixedGrid, Setup};
 use jostle::geometry::Disk;
 
 /// An engine that advances soft disks over a sine base.
@@ -30,26 +31,26 @@ pub trait SoftEngine: Clone + 'static {
     fn steps(&self) -> u64;
 }
 
-impl<I: Integrator> SoftEngine for MolecularDynamics<I, Sine> {
+impl<I: Integrator> SoftEngine for FixedGrid<PredictorCorrector<I>, Sine> {
     const METHOD: &'static str = I::NAME;
     const PASSES: f64 = 1.0;
 
     fn start(setup: Setup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self {
         let mut engine = Self::new(setup, disks, drive);
-        engine.set_motion(|state| state.velocity[..3 * rates.len()].copy_from_slice(rates.as_flattened()));
+        engine.set_motion(|disks| disks.velocity[..3 * rates.len()].copy_from_slice(rates.as_flattened()));
         engine
     }
 
     fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
-        Self::advance_to(self, end_time)
+        Engine::advance_to(self, end_time)
     }
 
     fn places(&self, count: usize) -> Vec<[f64; 3]> {
-        self.now().places()[..count].to_vec()
+        self.observables().positions[..count].to_vec()
     }
 
     fn first_rate(&self) -> [f64; 3] {
-        self.now().rates()[0]
+        self.observables().velocities[0]
     }
 
     fn steps(&self) -> u64 {
@@ -63,20 +64,20 @@ impl SoftEngine for Located {
 
     fn start(setup: Setup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self {
         let mut engine = Self::new(setup, disks, drive);
-        engine.set_motion(|state| state.rates.copy_from_slice(rates));
+        engine.set_motion(|disks| disks.velocities.copy_from_slice(rates));
         engine
     }
 
     fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
-        Self::advance_to(self, end_time)
+        Engine::advance_to(self, end_time)
     }
 
     fn places(&self, count: usize) -> Vec<[f64; 3]> {
-        self.now().places[..count].to_vec()
+        self.now().disks.positions[..count].to_vec()
     }
 
     fn first_rate(&self) -> [f64; 3] {
-        self.now().rates[0]
+        self.now().disks.velocities[0]
     }
 
     fn steps(&self) -> u64 {
@@ -85,11 +86,11 @@ impl SoftEngine for Located {
 }
 
 /// Velocity Verlet on a sine.
-pub type Verlet = MolecularDynamics<VelocityVerlet, Sine>;
+pub type Verlet = dem::Verlet<Sine>;
 /// Gear's method on a sine.
-pub type Gear = MolecularDynamics<Gear5, Sine>;
+pub type Gear = dem::Gear<Sine>;
 /// The fourth-order engine on a sine.
-pub type Located = LocatedDynamics<Sine>;
+pub type Located = EventLocated<Sine>;
 
 /// The points that `$point::<Engine>(...)` makes, for each engine.
 macro_rules! each_engine {

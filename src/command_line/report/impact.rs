@@ -6,10 +6,9 @@
 use std::f64::consts::{PI, TAU};
 
 use jostle::collision::{CollisionLaw, Dashpot, Impact, TabulatedDashpot};
-use jostle::contact::{ElasticSkin, LinearDashpot};
+use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
-use jostle::engine::located_dynamics::limits;
-use jostle::engine::molecular_dynamics::{ContactLaws, Setup};
+use jostle::engine::dem::{ContactLaws, Setup, TimeStepLimits};
 use jostle::geometry::{Disk, Wall};
 
 use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder, root_mean_square};
@@ -93,7 +92,7 @@ impl Hit {
                 stiffness: STIFFNESS,
                 damping: self.damping,
             },
-            skin: ElasticSkin {
+            tangential: TangentialSpring {
                 stiffness: self.stiffness_ratio * STIFFNESS,
                 friction: self.friction,
             },
@@ -146,7 +145,8 @@ pub fn by_tolerance(tolerances: impl Iterator<Item = f64>) -> Case {
     let points = tolerances.map(|tolerance| {
         Point::new(Located::METHOD, tolerance, move |watch: &mut Stopwatch| {
             // An infinitely heavy partner: the wall.
-            let step = limits(&hits[0].laws(), &[mass(), f64::INFINITY], None, tolerance).default;
+            let step =
+                TimeStepLimits::event_located(&hits[0].laws(), &[mass(), f64::INFINITY], None, tolerance).default;
             let (mut errors, mut steps) = (Vec::new(), 0);
             for hit in hits {
                 let (misses, done) = misses::<Located>(hit, step, watch)?;

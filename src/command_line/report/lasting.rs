@@ -8,9 +8,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use jostle::contact::{ElasticSkin, LinearDashpot};
+use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
-use jostle::engine::molecular_dynamics::{ContactLaws, Setup};
+use jostle::engine::dem::{ContactLaws, Setup};
 use jostle::geometry::{Disk, Wall};
 
 use super::case::{Case, Done, Point, Stopwatch, ladder};
@@ -116,7 +116,7 @@ impl Oscillator {
                 stiffness: STIFFNESS,
                 damping: DAMPING,
             },
-            skin: ElasticSkin {
+            tangential: TangentialSpring {
                 stiffness: STIFFNESS_RATIO * STIFFNESS,
                 friction: 10.0,
             },

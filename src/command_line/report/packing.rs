@@ -8,10 +8,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 use std::sync::OnceLock;
 
-use jostle::contact::{ElasticSkin, LinearDashpot};
+use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
-use jostle::engine::located_dynamics::limits;
-use jostle::engine::molecular_dynamics::{ContactLaws, Setup};
+use jostle::engine::dem::{ContactLaws, Setup, TimeStepLimits};
 use jostle::geometry::{Disk, Wall};
 use jostle::scene::Simulation;
 use jostle::scene::packing::PackingOnSine;
@@ -91,7 +90,7 @@ pub fn by_tolerance(tolerances: impl Iterator<Item = f64>) -> Case {
     let points = tolerances.map(|tolerance| {
         Point::new(Located::METHOD, tolerance, move |watch: &mut Stopwatch| {
             let masses: Vec<f64> = start()?.iter().map(Start::mass).collect();
-            let step = limits(&laws(), &masses, Some(FREQUENCY), tolerance).default;
+            let step = TimeStepLimits::event_located(&laws(), &masses, Some(FREQUENCY), tolerance).default;
             let (places, passes) = run::<Located>(step, HORIZON, watch)?;
             Ok(Done::exact(errors(&places, reference(HORIZON)?, start()?), passes))
         })
@@ -135,8 +134,8 @@ fn settled() -> Result<Vec<Start>, Trouble> {
     let mut packing = Simulation::<PackingOnSine>::new(DISKS, &parameters)?;
     packing.advance_to(1.0)?;
     let engine = packing.scene().engine();
-    let now = engine.now();
-    let disks = engine.radii().iter().zip(now.places()).zip(now.rates());
+    let now = engine.observables();
+    let disks = engine.radii().iter().zip(now.positions).zip(now.velocities);
     Ok(disks
         .map(|((&radius, place), &rates)| Start {
             radius,
@@ -170,7 +169,7 @@ fn laws() -> ContactLaws {
             stiffness: 1e4,
             damping: 0.1,
         },
-        skin: ElasticSkin {
+        tangential: TangentialSpring {
             stiffness: 0.77e4,
             friction: 0.1,
         },

@@ -21,7 +21,7 @@ mod space;
 mod state;
 mod walls;
 
-use super::Work;
+use super::WorkBudget;
 use crate::collision::CollisionLaw;
 use crate::geometry::Disk;
 
@@ -155,14 +155,19 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     /// # Errors
     /// As [`Self::advance_to`].
     pub fn advance_observed(&mut self, end_time: f64, observer: &mut impl Observer) -> Result<(), Stop> {
-        self.advance_within(end_time, observer, &mut Work::default())
+        self.advance_within(end_time, observer, &mut WorkBudget::default())
     }
 
     /// As [`Self::advance_observed`], with the work that it takes taken off `work`.
     ///
     /// # Errors
     /// As [`Self::advance_to`].
-    pub fn advance_within(&mut self, end_time: f64, observer: &mut impl Observer, work: &mut Work) -> Result<(), Stop> {
+    pub fn advance_within(
+        &mut self,
+        end_time: f64,
+        observer: &mut impl Observer,
+        work: &mut WorkBudget,
+    ) -> Result<(), Stop> {
         loop {
             let end = end_time - self.state.epoch;
             let bodies = &self.state.bodies;

@@ -13,7 +13,7 @@ mod base;
 mod frame;
 mod state;
 
-use super::Work;
+use super::WorkBudget;
 use crate::collision::{CollisionLaw, Impact, tangential_mass};
 use crate::drive::Motion;
 use crate::geometry::Flight;
@@ -121,14 +121,14 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
     /// The disk is stuck, or there are more impacts than one call may do; the state is then that of the last impact and
     /// of no use.
     pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stop> {
-        self.advance_within(end_time, &mut Work::default())
+        self.advance_within(end_time, &mut WorkBudget::default())
     }
 
     /// As [`Self::advance_to`], with the work that it takes taken off `work`.
     ///
     /// # Errors
     /// As [`Self::advance_to`].
-    pub fn advance_within(&mut self, end_time: f64, work: &mut Work) -> Result<(), Stop> {
+    pub fn advance_within(&mut self, end_time: f64, work: &mut WorkBudget) -> Result<(), Stop> {
         while self.state.time + self.state.delay <= end_time {
             if !work.spend(self.work_of_impact) {
                 let (time, most) = (self.state.time, work.most() / self.work_of_impact);

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::drive::FollowsInput;
 use crate::engine::event_driven::{Moving, Partner, Stop};
-use crate::engine::{MOST_WORK_IN_A_CALL, Work};
+use crate::engine::{MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::{Error, Result, are_sane};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::hard_disks::{Energies, Matter, Report};
@@ -156,7 +156,7 @@ impl<R: HardRun> Scene for HardPacking<R> {
         let backup = self.run.state();
         let (from, impulse) = (self.report.time, self.run.counts().base_impulse);
         self.run.aim(from, end_time - from, values);
-        if let Err(stop) = self.run.advance_to(end_time, &mut Work::at_most(self.most_work)) {
+        if let Err(stop) = self.run.advance_to(end_time, &mut WorkBudget::at_most(self.most_work)) {
             self.run.restore(&backup);
             return Err(refusal(stop));
         }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::collision::{ContactTime, Dashpot, TabulatedDashpot, effective_mass};
 use crate::drive::{Motion, RandomPhase, Sine};
-use crate::engine::Work;
+use crate::engine::WorkBudget;
 use crate::engine::event_driven::{
     AtRandomPhase, Counts, EventDriven, Gravity, Moving, Open, Settings, State, Stop, Unobserved, Walls,
 };
@@ -49,7 +49,7 @@ pub trait HardRun: Sized + Send + 'static {
     ///
     /// # Errors
     /// No headway, or too many events.
-    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> std::result::Result<(), Stop>;
+    fn advance_to(&mut self, end_time: f64, work: &mut WorkBudget) -> std::result::Result<(), Stop>;
     /// Place, velocity, angle and angular velocity of a disk at `time` \[s\].
     fn seen(&self, disk: usize, time: f64) -> ([f64; 2], [f64; 2], f64, f64);
     /// Sums since the start.
@@ -182,7 +182,7 @@ impl<W: HardBase> HardRun for HardDisks<W> {
         }
     }
 
-    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> std::result::Result<(), Stop> {
+    fn advance_to(&mut self, end_time: f64, work: &mut WorkBudget) -> std::result::Result<(), Stop> {
         self.advance_within(end_time, &mut Unobserved, work)
     }
 
@@ -267,7 +267,7 @@ impl HardRun for EitherModel {
 
     fn aim(&mut self, _time: f64, _duration: f64, _values: &Values) {}
 
-    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> std::result::Result<(), Stop> {
+    fn advance_to(&mut self, end_time: f64, work: &mut WorkBudget) -> std::result::Result<(), Stop> {
         either!(self, run => HardRun::advance_to(&mut **run, end_time, work))
     }
 

@@ -1,7 +1,8 @@
 //! What the scene shows: the engine's state in the rows of the variable table.
 
-use crate::engine::three_disk::{
-    LOST, Look, Node, Phase, Record, Sense, Setup, SlidingPoint, ThreeDisk as Engine, WORK,
+use crate::engine::Engine;
+use crate::engine::disk_on_two_supports::{
+    DiskOnTwoSupports, ENERGY_INPUT, ENERGY_LOST, Node, Observables, Phase, Record, Sense, Setup, SlidingPoint,
 };
 use crate::scene::OutputWriter;
 
@@ -13,21 +14,21 @@ pub struct Energies {
     pub kinetic: f64,
     /// In gravity, zero where the disk just touches both supports at rest.
     pub potential: f64,
-    /// In springs and skins of the contacts.
+    /// In the springs of the contacts, normal and tangential.
     pub elastic: f64,
 }
 
-/// Energies now; `look` is [`Engine::look`].
-pub fn energies<E: ThreeDiskDrive>(engine: &Engine<E>, look: &Look) -> Energies {
+/// Energies now; `seen` is [`DiskOnTwoSupports::observe`].
+pub fn energies<E: ThreeDiskDrive>(engine: &DiskOnTwoSupports<E>, seen: &Observables) -> Energies {
     let (setup, disk) = (engine.setup(), &engine.state().now.disk);
     let [_, y, _, vx, vy, spin, ..] = *disk;
-    let stored = look.contacts.map(|contact| {
+    let stored = seen.contacts.map(|contact| {
         let spring = if contact.overlap > 0.0 {
             setup.normal.energy(contact.overlap)
         } else {
             0.0
         };
-        spring + setup.skin.energy(contact.stretch)
+        spring + setup.tangential.energy(contact.stretch)
     });
     Energies {
         kinetic: 0.5 * (setup.mass * (vx * vx + vy * vy) + setup.inertia() * spin * spin),
@@ -51,8 +52,13 @@ fn counted(count: u64) -> i64 {
 }
 
 /// Writes every calculated parameter and output.
-pub fn write<E: ThreeDiskDrive>(engine: &Engine<E>, report: &Report, start_energy: f64, mut outputs: OutputWriter<'_>) {
-    let (look, now) = (engine.look(), &engine.state().now);
+pub fn write<E: ThreeDiskDrive>(
+    engine: &DiskOnTwoSupports<E>,
+    report: &Report,
+    start_energy: f64,
+    mut outputs: OutputWriter<'_>,
+) {
+    let (seen, now) = (engine.observe(), &engine.state().now);
     let Report { time, turning, .. } = report;
     let Node { disk, .. } = now;
     let record = now.record.since(report.before.as_ref().unwrap_or(&now.record));
@@ -71,8 +77,8 @@ pub fn write<E: ThreeDiskDrive>(engine: &Engine<E>, report: &Report, start_energ
         kinetic,
         potential,
         elastic,
-    } = energies(engine, &look);
-    let (input, lost) = (disk[WORK], disk[LOST]);
+    } = energies(engine, &seen);
+    let (input, lost) = (disk[ENERGY_INPUT], disk[ENERGY_LOST]);
     outputs.real("energy.kinetic", kinetic);
     outputs.real("energy.potential", potential);
     outputs.real("energy.elastic", elastic);
@@ -82,8 +88,8 @@ pub fn write<E: ThreeDiskDrive>(engine: &Engine<E>, report: &Report, start_energ
         "energy.residual",
         kinetic + potential + elastic + lost - input - start_energy,
     );
-    write_skins(&mut outputs, engine.setup(), &look);
-    write_contacts(&mut outputs, now, &look, &record);
+    write_skins(&mut outputs, engine.setup(), &seen);
+    write_contacts(&mut outputs, now, &seen, &record);
     write_slides(&mut outputs, &record);
     outputs.real("disk.angle[1]", now.angle());
     outputs.real("disk.angular_velocity[1]", disk[5]);
@@ -92,20 +98,20 @@ pub fn write<E: ThreeDiskDrive>(engine: &Engine<E>, report: &Report, start_energ
     outputs.finish();
 }
 
-fn write_skins(outputs: &mut OutputWriter<'_>, setup: &Setup, look: &Look) {
-    let [left, right] = look.contacts.map(|contact| contact.tangential);
-    let per_angle = 2.0 * setup.skin.stiffness * setup.radius;
+fn write_skins(outputs: &mut OutputWriter<'_>, setup: &Setup, seen: &Observables) {
+    let [left, right] = seen.contacts.map(|contact| contact.tangential);
+    let per_angle = 2.0 * setup.tangential.stiffness * setup.radius;
     outputs.real("skin.stretch", (right - left) / per_angle);
     outputs.real("skin.departure", -(left + right) / per_angle);
-    let margin = look
+    let margin = seen
         .contacts
-        .map(|contact| (setup.skin.friction * contact.normal - contact.tangential.abs()).max(0.0));
+        .map(|contact| (setup.tangential.friction * contact.normal - contact.tangential.abs()).max(0.0));
     outputs.real("amonton_margin", margin[0].min(margin[1]));
 }
 
-fn write_contacts(outputs: &mut OutputWriter<'_>, now: &Node, look: &Look, since: &Record) {
+fn write_contacts(outputs: &mut OutputWriter<'_>, now: &Node, seen: &Observables, since: &Record) {
     for index in 0..2 {
-        let (force, number) = (&look.contacts[index], index + 1);
+        let (force, number) = (&seen.contacts[index], index + 1);
         let name = |name: &str| format!("contact[{number}].{name}");
         outputs.real(&name("normal_force"), force.normal);
         outputs.real(&name("tangential_force"), force.tangential);

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
-use crate::contact::{ElasticSkin, LinearDashpot};
-use crate::engine::three_disk::{Bench, Frame};
+use crate::contact::{LinearDashpot, TangentialSpring};
+use crate::engine::disk_on_two_supports::{Frame, Rig};
 use crate::error::{Error, Result};
 use crate::scene::{Unit, Values, Variable};
 
@@ -338,7 +338,7 @@ fn disk() -> Vec<Variable> {
 ///
 /// # Errors
 /// Supports that do not confine the disk or overlap each other.
-pub fn bench(values: &Values) -> Result<Bench> {
+pub fn rig(values: &Values) -> Result<Rig> {
     let (opening, tilt, radius) = (
         values.real("support.angle"),
         values.real("tilt"),
@@ -362,7 +362,7 @@ pub fn bench(values: &Values) -> Result<Bench> {
         ));
     }
     let stiffness = values.real("contact.normal_stiffness");
-    Ok(Bench {
+    Ok(Rig {
         radius,
         mass: values.real("disk.mass"),
         gravity: values.real("gravity"),
@@ -370,7 +370,7 @@ pub fn bench(values: &Values) -> Result<Bench> {
             stiffness,
             damping: values.real("contact.normal_damping"),
         },
-        skin: ElasticSkin {
+        tangential: TangentialSpring {
             stiffness: values.real("contact.stiffness_ratio") * stiffness,
             friction: values.real("contact.friction"),
         },

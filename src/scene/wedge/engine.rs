@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::drive::Motion;
-use crate::engine::Work;
+use crate::engine::WorkBudget;
 use crate::error::{Result, are_sane};
 use crate::scene::{OutputWriter, Values, Variable};
 
@@ -103,7 +103,7 @@ pub trait Engine: Sized + Send + 'static {
     ///
     /// # Errors
     /// It cannot be done; the state is then of no use.
-    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()>;
+    fn advance_to(&mut self, end_time: f64, work: &mut WorkBudget) -> Result<()>;
 
     /// Disk and base at `time` \[s\], to which it was advanced last.
     fn look(&self, time: f64) -> Look;

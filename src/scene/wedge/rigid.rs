@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 use crate::collision::{CollisionLaw, Dashpot, TabulatedDashpot, VelocityFloor};
 use crate::contact::LinearDashpot;
 use crate::drive::{FirstHit, RandomPhase, Sine};
-use crate::engine::Work;
+use crate::engine::WorkBudget;
 use crate::engine::wedge::{DiskInWedge, Moving, NO_PROGRESS, Resting, Setup, Side, State, Stop, Stuck, WallMotion};
 use crate::error::{Error, Result};
 use crate::scene::base_drive::BaseDrive;
@@ -193,7 +193,7 @@ impl Engine for Map {
 
     fn aim(&mut self, _time: f64, _duration: f64, _values: &Values) {}
 
-    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()> {
+    fn advance_to(&mut self, end_time: f64, work: &mut WorkBudget) -> Result<()> {
         self.0
             .advance_within(end_time, work)
             .map_err(|stop| refusal(stop, "Raise collision.restitution or drive.amplitude."))
@@ -268,7 +268,7 @@ impl<D: BaseDrive + FirstHit> Engine for EventDriven<D> {
         }
     }
 
-    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()> {
+    fn advance_to(&mut self, end_time: f64, work: &mut WorkBudget) -> Result<()> {
         let remedy = format!("Inelastic collapse? Raise {FLOOR} or collision.restitution.");
         self.0
             .advance_within(end_time, work)

@@ -3,13 +3,10 @@
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-use crate::contact::{ElasticSkin, LinearDashpot};
-use crate::drive::Motion;
-use crate::engine::Work;
-use crate::engine::molecular_dynamics::{
-    Breakdown, ContactLaws, Integrator, MolecularDynamics, Setup, State, TimeStepLimits,
-};
+use crate::contact::{ContactLaws, LinearDashpot, TangentialSpring};
+use crate::engine::dem::{Breakdown, Setup, State, TimeStepLimits, Verlet, verlet};
 use crate::engine::wedge::{Frame, Side};
+use crate::engine::{Engine as _, WorkBudget};
 use crate::error::{Error, Result};
 use crate::geometry::{Disk, Wall};
 use crate::scene::base_drive::BaseDrive;
@@ -20,10 +17,10 @@ use super::engine::{Energy, Engine, Look};
 use super::initial::AtStart;
 use super::{NAME, rows};
 
-/// Molecular dynamics with the integrator I in a wedge that moves with the drive D.
+/// A soft disk in a wedge that moves with the drive D.
 #[derive(Debug)]
-pub struct Soft<I, D> {
-    engine: MolecularDynamics<I, D>,
+pub struct Soft<D> {
+    engine: Verlet<D>,
     mass: f64,
 }
 
@@ -31,15 +28,15 @@ fn refusal(breakdown: Breakdown) -> Error {
     refusal_of(NAME, breakdown)
 }
 
-impl<I: Integrator, D: BaseDrive> Soft<I, D> {
+impl<D: BaseDrive> Soft<D> {
     /// Time step in use \[s\].
     pub fn time_step(&self) -> f64 {
         self.engine.setup().time_step
     }
 }
 
-impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
-    type State = State<D>;
+impl<D: BaseDrive> Engine for Soft<D> {
+    type State = State<D, verlet::Disks>;
     const NAME: &'static str = "molecular-dynamics";
     const DRIVE: &'static str = D::NAME;
     const IDENTIFIER: &'static str = if D::STEERED {
@@ -107,13 +104,13 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
                 stiffness,
                 damping: values.real("contact.normal_damping"),
             },
-            skin: ElasticSkin {
+            tangential: TangentialSpring {
                 stiffness: values.real("contact.stiffness_ratio") * stiffness,
                 friction: values.real("contact.friction"),
             },
         };
         let drive = D::new(start_time, values)?;
-        let limits = TimeStepLimits::of(&laws, &[mass], drive.frequency());
+        let limits = TimeStepLimits::verlet(&laws, &[mass], drive.frequency());
         let slopes = rows::slopes(values);
         let setup = Setup {
             laws,
@@ -132,10 +129,10 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
             y: reach * up_y + drive.motion(start_time).displacement,
             radius,
         };
-        let mut engine = MolecularDynamics::new(setup, &[disk], drive);
-        engine.set_motion(|state| {
-            state.velocity[0] = sideways * up_y;
-            state.velocity[1] = -sideways * up_x;
+        let mut engine = Verlet::new(setup, &[disk], drive);
+        engine.set_motion(|disks| {
+            disks.velocity[0] = sideways * up_y;
+            disks.velocity[1] = -sideways * up_x;
         });
         Ok(Self { engine, mass })
     }
@@ -144,21 +141,20 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
         self.engine.drive_mut().aim(time, duration, values);
     }
 
-    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()> {
+    fn advance_to(&mut self, end_time: f64, work: &mut WorkBudget) -> Result<()> {
         self.engine.advance_within(end_time, work).map_err(refusal)
     }
 
     fn look(&self, _time: f64) -> Look {
-        let (now, energies) = (self.engine.now(), self.engine.energies());
-        let ([x, y, angle], [vx, vy, angular_velocity]) = (now.places()[0], now.rates()[0]);
+        let (now, energies) = (self.engine.observables(), self.engine.energies());
+        let ([x, y, angle], [vx, vy, angular_velocity]) = (now.positions[0], now.velocities[0]);
         let impulse: f64 = (0..2).map(|wall| self.engine.impulse_of_wall(wall)[1]).sum();
-        let base: Motion = now.base;
         Look {
             place: [x, y],
             velocity: [vx, vy],
             angle,
             angular_velocity,
-            base,
+            base: now.base,
             impulse: impulse / self.mass,
             energy: Energy {
                 kinetic: energies.kinetic / self.mass,

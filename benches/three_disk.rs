@@ -24,7 +24,7 @@ use jostle::scene::{Choice, Scene, Table, Value, Values};
 
 const TILT: f64 = 0.1;
 
-/// P 5.1 with this skin.
+/// P 5.1 with this tangential stiffness.
 fn rig(stiffness: f64, walls: bool) -> Rig {
     Rig {
         radius: 1.0,

@@ -112,7 +112,7 @@ fn compared<E: Excitation>(name: &str, raw: &Raw, excitation: E, start: Motion, 
     off
 }
 
-/// Brute force rounds distances of 2 m to 4e-16 m, which a skin of 1e6 N/m makes some 1e-11 m/s.
+/// Brute force rounds distances of 2 m to 4e-16 m, which a tangential spring of 1e6 N/m makes some 1e-11 m/s.
 const ROUNDING: f64 = 5e-11;
 
 fn still(place: [f64; 3]) -> Motion {

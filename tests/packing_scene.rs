@@ -73,7 +73,7 @@ fn energy_residual<M: SoftMethod, D: BaseDrive>(time_step: f64) -> f64 {
 }
 
 /// Work of the base less losses is the change of energy; what is left over shrinks with the step at the order that
-/// impacts allow, which is the first (see the table of `tests/molecular_dynamics.rs`).
+/// impacts allow, which is the first (see the table of `tests/verlet.rs`).
 #[test]
 fn energy_balances_with_the_step() {
     for (name, residual) in [

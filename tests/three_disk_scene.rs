@@ -307,7 +307,7 @@ fn starts_at_rest_and_stays() {
     }
 }
 
-/// No friction to nearly what opens the contacts, skins 100 times softer to a million times stiffer than the contacts,
+/// No friction to nearly what opens the contacts, tangential springs 100 times softer to a million times stiffer than the contacts,
 /// torques that jump to ten times the limit and back: all finite, and energy is accounted for.
 #[test]
 fn nothing_blows_up() {

@@ -12,7 +12,7 @@ use jostle::scene::three_disk::ThreeDiskOnHarmonicTorque;
 use jostle::scene::{Choice, Scene};
 use support::{outputs_of, values_of};
 
-/// Largest step that the default skin allows; runs of theirs with smaller ones differ by 1e-12.
+/// Largest step that the default tangential spring allows; runs of theirs with smaller ones differ by 1e-12.
 const TIME_STEP: f64 = 5e-5;
 
 struct Ran {
@@ -88,9 +88,9 @@ fn a_disk_that_never_rests_turns_as_marched() {
     assert!((found / marched.angular_velocity - 1.0).abs() < 1e-3);
 }
 
-/// The skin comes to S1 and S2 of soft contacts and never leaves the band between them.
+/// The tangential spring comes to S1 and S2 of soft contacts and never leaves the band between them.
 #[test]
-fn skin_passes_both_corners() {
+fn tangential_spring_passes_both_corners() {
     let setting = Setting::THESIS.tilted(0.1 * std::f64::consts::PI);
     let torque = HarmonicTorque {
         amplitude: 0.113,

@@ -318,8 +318,8 @@ fn lasting_contact_follows_the_driven_oscillator() {
     }
 }
 
-/// Closed contacts are counted where they close and open: the count is that of the disks that overlap, with skins and
-/// without, and a state that says otherwise is none.
+/// Closed contacts are counted where they close and open: the count is that of the disks that overlap, with
+/// tangential springs and without, and a state with another count is refused.
 #[test]
 fn closed_contacts_are_those_that_overlap() {
     for friction in [0.1, 0.0] {
@@ -348,7 +348,7 @@ fn closed_contacts_are_those_that_overlap() {
             let time = 1e-3 * f64::from(step);
             engine.advance_to(time).unwrap();
             let (now, floor) = (engine.now(), engine.now().base.displacement);
-            let places = &now.places()[..12];
+            let places = engine.observables().positions;
             let closed = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]) < 2.0 * RADIUS;
             let pairs = (0..12).flat_map(|i| (0..i).map(move |j| (i, j)));
             let between = pairs.filter(|&(i, j)| closed(&places[i], &places[j])).count();
@@ -364,4 +364,29 @@ fn closed_contacts_are_those_that_overlap() {
         state.contacts += 1;
         assert_eq!(engine.fits(&state, time), friction == 0.0);
     }
+}
+
+/// An observation between grid points that fails leaves the state and the former observation as they were.
+#[test]
+fn a_refused_observation_leaves_the_former_one() {
+    let setup = Setup {
+        laws: laws(0.1, 0.77, 0.1),
+        walls: vec![Wall::vibrating_floor()],
+        masses: vec![mass(RADIUS)],
+        gravity: 9.8,
+        time_step: 1e-3,
+        start_time: 0.0,
+    };
+    let disk = Disk {
+        x: 0.0,
+        y: 0.1,
+        radius: RADIUS,
+    };
+    let mut engine = Verlet::new(setup, &[disk], at_rest());
+    engine.advance_to(0.002_5).unwrap();
+    let (state, seen) = (engine.state().clone(), engine.now().clone());
+    *engine.drive_mut() = FollowsInput::uniform(0.0, 1.0, 0.0);
+    engine.advance_to(0.002_6).unwrap_err();
+    *engine.drive_mut() = at_rest();
+    assert!(*engine.state() == state && *engine.now() == seen);
 }

@@ -34,12 +34,12 @@ SYSTEM = frozenset({"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "
 """All parts of glibc; nothing else may be asked for."""
 
 STRANGERS = (
-    ("jostle_packing_event_driven", ("molecular_dynamics", "located_dynamics", "ratchet", "wedge", "three_disk")),
+    ("jostle_packing_event_driven", ("verlet", "event_located", "ratchet", "wedge", "three_disk")),
     ("jostle_packing_located", ("event_driven", "VelocityVerlet", "ratchet", "wedge", "three_disk")),
-    ("jostle_packing", ("event_driven", "located_dynamics", "ratchet", "wedge", "three_disk")),
-    ("jostle_ratchet", ("molecular_dynamics", "wedge", "three_disk")),
+    ("jostle_packing", ("event_driven", "event_located", "ratchet", "wedge", "three_disk")),
+    ("jostle_ratchet", ("verlet", "wedge", "three_disk")),
     ("jostle_wedge_molecular_dynamics", ("ratchet", "event_driven", "DiskInWedge", "three_disk")),
-    ("jostle_wedge", ("molecular_dynamics", "ratchet", "event_driven", "three_disk")),
+    ("jostle_wedge", ("verlet", "ratchet", "event_driven", "three_disk")),
     ("jostle_three_disk", ("ratchet", "event_driven", "wedge")),
 )
 """Words of the symbols that a library must not have, by the beginning of its name; the first that fits counts."""

@@ -132,12 +132,8 @@ impl StepScratch {
 
     /// Makes the contacts those at the end of the step.
     pub fn commit(&self, pairs: &mut [Contact], wall_contacts: &mut [Contact]) {
-        let ends = self.pair_ends.iter().chain(&self.wall_ends);
-        for (contact, end) in pairs.iter_mut().chain(wall_contacts).zip(ends) {
-            if end.touched {
-                *contact = end.after;
-            }
-        }
+        commit(pairs, &self.pair_ends);
+        commit(wall_contacts, &self.wall_ends);
     }
 
     fn clear(&mut self, context: &StepContext<'_>) {
@@ -178,6 +174,14 @@ impl StepScratch {
             self.velocities.push(sped.map(|(sum, _)| sum));
             self.remainders
                 .push([moved.map(|(_, short)| short), sped.map(|(_, short)| short)]);
+        }
+    }
+}
+
+fn commit(contacts: &mut [Contact], ends: &[ContactEnd]) {
+    for (contact, end) in contacts.iter_mut().zip(ends) {
+        if end.touched {
+            *contact = end.after;
         }
     }
 }

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use jostle::collision::{CollisionLaw, ContactTime, Coulomb, Smooth};
 use jostle::drive::{FollowsInput, RandomPhase, Sine};
-use jostle::engine::Work;
+use jostle::engine::WorkBudget;
 use jostle::engine::event_driven::{
     AtRandomPhase, EventDriven, Gravity, Moving, Open, Partner, Periodic, Settings, Stop, Unbounded, Unobserved,
     VibratingBase, Walls, Weightless,
@@ -368,7 +368,7 @@ fn the_work_of_a_call_is_bounded() {
     let mut other = engine.clone();
     let start = engine.state().clone();
     let stop = engine
-        .advance_within(10.0, &mut Unobserved, &mut Work::at_most(100))
+        .advance_within(10.0, &mut Unobserved, &mut WorkBudget::at_most(100))
         .unwrap_err();
     assert!(
         matches!(stop, Stop::TooManyEvents { time, most: 100 } if (0.1..10.0).contains(&time)),

@@ -105,7 +105,8 @@ impl AnySimulation {
         self.0.advance_to(end_time)
     }
 
-    /// Lets one step do no more than so much, instead of what takes half an hour at most: see [`Work`](crate::engine::Work).
+    /// Lets one step do no more than so much, instead of what takes half an hour at most: see
+    /// [`WorkBudget`](crate::engine::WorkBudget).
     pub fn limit_work(&mut self, most: u64) {
         self.0.limit_work(most);
     }

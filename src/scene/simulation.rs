@@ -128,7 +128,8 @@ impl<S: Scene> Simulation<S> {
         Ok(())
     }
 
-    /// Lets one step do no more than so much, instead of what takes half an hour at most: see [`Work`](crate::engine::Work).
+    /// Lets one step do no more than so much, instead of what takes half an hour at most: see
+    /// [`WorkBudget`](crate::engine::WorkBudget).
     pub fn limit_work(&mut self, most: u64) {
         self.most_work = most;
         self.scene.limit_work(most);

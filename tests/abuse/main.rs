@@ -25,7 +25,7 @@ use rand_pcg::Pcg64;
 use damaged::damaged;
 use extremes::extremes;
 
-/// Work that a step of a trial may do (`jostle::engine::Work`). What absurd parameters ask beyond it is refused.
+/// Work that a step of a trial may do (`jostle::engine::WorkBudget`). What absurd parameters ask beyond it is refused.
 const MOST_WORK: u64 = 200_000;
 
 fn number(variable: &str, usual: u64) -> u64 {

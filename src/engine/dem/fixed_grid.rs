@@ -38,7 +38,7 @@ impl<D: Clone, M: Clone> Clone for State<D, M> {
         }
     }
 
-    /// Copies without allocating where there is room: the backup of every call and the observation between grid points.
+    /// Copies without allocating where there is room.
     fn clone_from(&mut self, source: &Self) {
         self.drive.clone_from(&source.drive);
         self.disks.clone_from(&source.disks);

@@ -10,6 +10,7 @@
 mod angle;
 mod candidates;
 mod cell_grid;
+mod clone_in_place;
 pub mod event_located;
 mod fixed_grid;
 mod lanes;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::engine::dem::candidates::Candidate;
+use crate::engine::dem::clone_in_place::clone_in_place;
 use crate::error::are_sane;
 
 /// Phase of a contact, in which its force is a smooth function of the motion.
@@ -150,34 +151,15 @@ pub struct Disks {
     pub changes: u64,
 }
 
-impl Clone for Disks {
-    fn clone(&self) -> Self {
-        Self {
-            positions: self.positions.clone(),
-            velocities: self.velocities.clone(),
-            remainders: self.remainders.clone(),
-            wall_impulses: self.wall_impulses.clone(),
-            pairs: self.pairs.clone(),
-            wall_contacts: self.wall_contacts.clone(),
-            positions_at_list_build: self.positions_at_list_build.clone(),
-            ..*self
-        }
-    }
-
-    /// Copies without allocating where there is room.
-    fn clone_from(&mut self, source: &Self) {
-        self.positions.clone_from(&source.positions);
-        self.velocities.clone_from(&source.velocities);
-        self.remainders.clone_from(&source.remainders);
-        self.wall_impulses.clone_from(&source.wall_impulses);
-        self.pairs.clone_from(&source.pairs);
-        self.wall_contacts.clone_from(&source.wall_contacts);
-        self.positions_at_list_build.clone_from(&source.positions_at_list_build);
-        Self {
-            base_at_list_build: self.base_at_list_build,
-            list_margin: self.list_margin,
-            changes: self.changes,
-            ..
-        } = *source;
-    }
-}
+clone_in_place!(Disks {
+    positions,
+    velocities,
+    remainders,
+    wall_impulses,
+    pairs,
+    wall_contacts,
+    positions_at_list_build,
+    base_at_list_build,
+    list_margin,
+    changes
+});

@@ -254,3 +254,65 @@ impl LaneSums {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{LinearDashpot, TangentialSpring};
+
+    struct AtRest;
+
+    impl Sliding for AtRest {
+        fn velocity(&self) -> F64x2 {
+            F64x2::splat(0.0)
+        }
+    }
+
+    /// Pressed and sticking, pressed and slipping either way, leaving faster than the spring pushes.
+    #[test]
+    fn lanes_give_the_forces_of_the_scalar_laws() {
+        let normal = LinearDashpot {
+            stiffness: 1e4,
+            damping: 0.3,
+        };
+        let tangential = TangentialSpring {
+            stiffness: 7e3,
+            friction: 0.2,
+        };
+        let laws = LaneLaws::new(&ContactLaws { normal, tangential }, 1e-5);
+        for (overlap, velocity, trial) in [
+            (2e-4, -0.1, 1e-5),
+            (2e-4, 0.05, 1e-3),
+            (3e-4, 0.0, -1e-3),
+            (1e-5, 0.9, 1e-5),
+        ] {
+            let approach = Approach {
+                normal: [F64x2::splat(1.0), F64x2::splat(0.0)],
+                overlap: F64x2::splat(overlap),
+                velocity: F64x2::splat(velocity),
+            };
+            let surfaces = Surfaces {
+                tangential_displacement: F64x2::splat(trial),
+                ..Surfaces::default()
+            };
+            let mut springs = [SpringMemory {
+                direction: [1.0, 0.0],
+                ..SpringMemory::OPEN
+            }; 2];
+            let [one, other] = &mut springs;
+            let mut sums = LaneSums::default();
+            let forces = laws.forces::<true>(&approach, &surfaces, [one, other], &mut sums, AtRest);
+
+            let force = normal.force(overlap, velocity);
+            let stretch = tangential.limited(trial, force);
+            let lost = 2.0 * normal.dissipated_power(overlap, velocity, force);
+            assert_eq!(forces.normal.to_array(), [force; 2]);
+            assert_eq!(sums.total::<true>(2).dissipated_power, lost);
+            for (k, spring) in springs.iter().enumerate() {
+                let expected = tangential.force(stretch);
+                assert!((lane(forces.tangential, k) - expected).abs() <= 2.0 * f64::EPSILON * expected.abs());
+                assert!((spring.stretch - stretch).abs() <= 2.0 * f64::EPSILON * stretch.abs());
+            }
+        }
+    }
+}

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::engine::dem::clone_in_place::clone_in_place;
+
 use super::contacts::{Pair, WallContact};
 
 /// Disks at one point of the grid of time. Degrees of freedom are flat: x, y, angle of disk 0, of disk 1, ..., then the
@@ -34,39 +36,20 @@ pub struct Disks {
     pub dissipated_power: f64,
 }
 
-impl Clone for Disks {
-    fn clone(&self) -> Self {
-        Self {
-            position: self.position.clone(),
-            velocity: self.velocity.clone(),
-            acceleration: self.acceleration.clone(),
-            higher: self.higher.clone(),
-            pairs: self.pairs.clone(),
-            wall_contacts: self.wall_contacts.clone(),
-            positions_at_list_build: self.positions_at_list_build.clone(),
-            ..*self
-        }
-    }
-
-    /// Copies without allocating where there is room.
-    fn clone_from(&mut self, source: &Self) {
-        self.position.clone_from(&source.position);
-        self.velocity.clone_from(&source.velocity);
-        self.acceleration.clone_from(&source.acceleration);
-        self.higher.clone_from(&source.higher);
-        self.pairs.clone_from(&source.pairs);
-        self.wall_contacts.clone_from(&source.wall_contacts);
-        self.positions_at_list_build.clone_from(&source.positions_at_list_build);
-        Self {
-            base_at_list_build: self.base_at_list_build,
-            step_of_list_build: self.step_of_list_build,
-            list_margin: self.list_margin,
-            base_force: self.base_force,
-            dissipated_power: self.dissipated_power,
-            ..
-        } = *source;
-    }
-}
+clone_in_place!(Disks {
+    position,
+    velocity,
+    acceleration,
+    higher,
+    pairs,
+    wall_contacts,
+    positions_at_list_build,
+    base_at_list_build,
+    step_of_list_build,
+    list_margin,
+    base_force,
+    dissipated_power
+});
 
 impl Disks {
     /// x, y and angle of each disk (and, behind them, degrees of freedom that are no disk's).

@@ -1,7 +1,6 @@
 """The programs of README.md, run as they stand there: same motion, same bits, and a force that is the weight."""
 
 import math
-import os
 import re
 import subprocess
 import sys
@@ -9,11 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from conftest import ROOT
+from conftest import PROGRAM, RELEASE, ROOT
 
 README = (ROOT / "README.md").read_text()
 WEIGHT = 3.57 * math.pi * 20 * (0.015**2 + 0.020**2 + 0.025**2) * 9.8
-RELEASE = Path(os.environ.get("CARGO_TARGET_DIR", "target")) / "release" / "jostle"
 
 
 def block(marker: str) -> str:
@@ -87,7 +85,7 @@ def test_c(reference: Printed):
 
 def test_c_library(reference: Printed):
     assert (ROOT / "capi" / "examples" / "shaken_packing.c").read_text() == block("c library")
-    program = block("sh c library").replace("target/release", str(RELEASE.parent))
+    program = block("sh c library").replace("target/release", str(RELEASE))
     check(run("bash", "-euo", "pipefail", "-c", program), reference)
 
 
@@ -108,7 +106,7 @@ int main(void) {{
 }}
 """
     (ROOT / "build" / "toml.c").write_text(program)
-    library = RELEASE.parent / "libjostle_c.a"
+    library = RELEASE / "libjostle_c.a"
     warnings = ["-Wall", "-Wextra", "-Werror"]
     run("cc", "-std=c11", *warnings, "-I", "include", "build/toml.c", "-o", "build/toml", str(library), "-lm")
     assert abs(float(run("build/toml"))) > 0.0
@@ -120,7 +118,7 @@ def test_rust(reference: Printed):
 
 
 def test_command_line():
-    program = block("sh command-line").replace("target/release/jostle", str(RELEASE))
+    program = block("sh command-line").replace("target/release/jostle", str(PROGRAM))
     output = run("bash", "-euo", "pipefail", "-c", program)
     assert "base.displacement" in output
     assert len((ROOT / "build" / "run.csv").read_text().splitlines()) == 1002

@@ -7,6 +7,8 @@ from jostle_lab.runs.laboratory import Laboratory, output_of
 from jostle_lab.tables import Table, parse_csv
 
 ROOT = Path(__file__).resolve().parents[2]
+GENERATED = ROOT / "docs" / "generated"
+"""Generated pages and their data."""
 CARGO = ("cargo", "run", "--release", "--quiet", "--example")
 """Builds and runs an example; its name and arguments follow."""
 

@@ -1,4 +1,4 @@
-"""`docs/stability.md` from what `jostle stability` wrote: a table for each scene and engine."""
+"""`docs/generated/stability.md` from the files of `jostle stability`: a table for each scene and engine, refusals."""
 
 from pathlib import Path
 from typing import Annotated
@@ -13,10 +13,10 @@ Row = dict[str, str]
 
 HEAD = """# Stability
 
-Written by `python -m tools stability` from `docs/stability/*.csv`, which `jostle stability` measured: every scene
-and engine, one dimension at a time from tame to extreme, everything else at its start value. `holds`: every criterion
-that applies holds for the simulated time, which a budget of CPU seconds may have cut short. `refused`: the scene said
-no, with a reason and a remedy, below. `violated`: a defect.
+Written by `python -m tools stability` from `docs/generated/stability/*.csv`, which `jostle stability` measured:
+every scene and engine, one dimension at a time from tame to extreme, everything else at its start value. `holds`: every
+criterion that applies holds for the simulated time, which a budget of CPU seconds may have cut short. `refused`: the
+scene said no, with a reason and a remedy, below. `violated`: a defect.
 """
 CRITERIA = {
     "finite": "every variable is a finite number at every sample",

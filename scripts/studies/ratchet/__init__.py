@@ -1,8 +1,7 @@
-"""F IV anew: what Farkas et al. say of the ratchet, beside what it does here.
+"""Section IV of F, computed anew: what F states of the ratchet beside what the simulation gives.
 
-    figure -> cases -> sweep -> velocities of single runs -> statements -> docs/ratchet.md
+    figure -> cases -> sweep -> velocities of single runs -> statements -> docs/generated/ratchet.md
 
 "F" in docstrings means Z. Farkas, P. Tegzes, A. Vukics, T. Vicsek, "Transitions in the horizontal transport of
-vertically vibrated granular layers" (2002). Velocities are in cm/s, as there. One more thing is here: a shaker whose
-controller holds Gamma (`shaker`, `controller`, `demo`).
+vertically vibrated granular layers", Phys. Rev. E 60, 7022 (1999). Velocities are in cm/s, as there.
 """

@@ -1,4 +1,4 @@
-"""Points from a sweep, or from the file of docs/ that keeps them."""
+"""Points from a sweep, or from the file of docs/generated/ that keeps them."""
 
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,7 @@
-"""docs/ratchet.md: every statement of F IV beside what was found, from the data kept in docs/.
+"""docs/generated/ratchet.md: every statement of F IV beside what was found, from the data kept there.
 
-    docs/ratchet.csv        velocity of every run
-    docs/ratchet-flow.csv   what F reads off Figs 13 and 14
+    docs/generated/ratchet.csv        velocity of every run
+    docs/generated/ratchet-flow.csv   what F reads off Figs 13 and 14
 
 The page is a function of the two files: a test makes it anew and compares.
 """
@@ -18,6 +18,7 @@ from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Statement, cell
 from jostle_lab.statistics.estimates import Estimate
 from jostle_lab.tables import read_table, write_table
+from studies.examples import GENERATED
 from studies.ratchet import experiment, frequency, layers, shape, threshold
 from studies.ratchet.cases import Case, Plan, Point, Points, lean_on_each_other
 from studies.ratchet.fields import Flow, flow_of
@@ -41,8 +42,9 @@ POINTS, FLOW, PAGE = "ratchet.csv", "ratchet-flow.csv", "ratchet.md"
 HEAD = """# The ratchet's paper, statement by statement
 
 F: Z. Farkas, P. Tegzes, A. Vukics, T. Vicsek, *Transitions in the horizontal transport of vertically vibrated granular
-layers* (2002). This page is generated; do not edit it. It is made of `docs/ratchet.csv`, the transport velocity of
-every run, and `docs/ratchet-flow.csv`, what was read off the fields.
+layers*, Phys. Rev. E 60, 7022 (1999). This page is generated; do not edit it. It is made of
+`docs/generated/ratchet.csv`, the transport velocity of every run, and `docs/generated/ratchet-flow.csv`, what was read
+off the fields.
 
 - `python -m studies ratchet-page` makes it anew from these files; with `--compute` it first runs what is missing in
   `results/`, everything if nothing is there (about {cost} of one processor), and replaces the files.
@@ -174,14 +176,14 @@ def ratchet_page(
     compute_anew: Annotated[
         bool, typer.Option("--compute", help="First run what is missing in results, and replace the data.")
     ] = False,
-    docs: Annotated[Path, typer.Option(help="Folder of the page and its data.")] = Path("docs"),
+    docs: Annotated[Path, typer.Option(help="Folder of the page and its data.")] = GENERATED,
     results: Annotated[Path, typer.Option(help="Folder of the runs.")] = Path("results"),
     processes: options.ProcessesOption = 2,
     program: options.ProgramOption = None,
     scheduler: options.SchedulerOption = None,
     progress: options.ProgressOption = True,
 ) -> None:
-    """Write docs/ratchet.md, every statement of the ratchet's paper beside what was found, from the data beside it."""
+    """Write docs/generated/ratchet.md, every statement of the ratchet's paper beside what was found, from its data."""
     if compute_anew:
         compute(Laboratory(locate.program(program), results / "runs", processes, progress, scheduler), docs)
     (docs / PAGE).write_text(page(read_points(docs / POINTS), read_flow(docs / FLOW)))

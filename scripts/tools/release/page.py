@@ -1,4 +1,4 @@
-"""`docs/binaries.md` from what `scripts/release` measured: a table of sizes and needs."""
+"""`docs/generated/binaries.md` from what `scripts/release` measured: a table of sizes and needs."""
 
 from pathlib import Path
 
@@ -7,8 +7,9 @@ from tools.release.binaries import Row
 
 HEAD = """# Binaries
 
-Written by `python -m tools binaries --data docs/binaries` from `docs/binaries/*.csv`, which the same command
-measured after `scripts/release` and `scripts/setup`; `scripts/release` prints the table of its own run. x86-64 Linux.
+Written by `python -m tools binaries --data docs/generated/binaries` from `docs/generated/binaries/*.csv`.
+The same command measured these after `scripts/release` and `scripts/setup`. `scripts/release` prints the table of its
+own run. x86-64 Linux.
 
 What ships is linked against glibc 2.17, of 2012; the newest symbol that it asks for is of {glibc}. Besides it needs
 nothing: zig puts the unwinder that catches panics and the mathematical functions inside. A plain `cargo build`, the

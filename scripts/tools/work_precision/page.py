@@ -218,8 +218,8 @@ def page(folder: Path, pictures: str, counts: Path) -> str:
 def _head(machine: dict[str, str]) -> str:
     return (
         "# Error against run time\n\n"
-        "Written by `python -m tools work-precision`; what is measured here is in `docs/report/*.csv`. Each point is "
-        "one setting of one method; CPU time is that of one solution without its set-up, the median of "
+        "Written by `python -m tools work-precision`; what is measured here is in `docs/generated/report/*.csv`. Each "
+        "point is one setting of one method; CPU time is that of one solution without its set-up, the median of "
         f"{machine['rounds']} rounds in which all points of a case take turns. The order is minus the slope of the "
         "straight line through error against evaluations on log axes, which is that against CPU time without what does "
         "not grow with the work. Points at rounding are left out of it, and those within ten times the error at which "

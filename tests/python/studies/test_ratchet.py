@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import ROOT
 
 from jostle_lab.errors import LabError
 from jostle_lab.runs.laboratory import Laboratory
+from studies.examples import GENERATED
 from studies.figures import STUDIES, make_figure, maker
 from studies.ratchet import fields, frequency, page, quoted, shape
 from studies.ratchet.cases import Case, Point, frequency_of, gamma_of
@@ -99,16 +99,16 @@ def test_points_are_kept_as_they_are_and_missing_ones_are_told(tmp_path: Path) -
 
 
 def test_page_is_what_the_kept_data_say() -> None:
-    """docs/ratchet.md is generated: `python -m jostle_lab ratchet-page`."""
-    docs = ROOT / "docs"
+    """The page is generated: `python -m studies ratchet-page`."""
+    docs = GENERATED
     made = page.page(read_points(docs / page.POINTS), page.read_flow(docs / page.FLOW))
-    assert made == (docs / page.PAGE).read_text(), "docs/ratchet.md differs: run python -m jostle_lab ratchet-page"
+    assert made == (docs / page.PAGE).read_text(), "the page differs: run python -m studies ratchet-page"
     assert (docs / page.POINTS).stat().st_size < 100_000
 
 
 def test_kept_velocities_are_those_of_the_program(laboratory: Laboratory) -> None:
-    """Fresh runs of other seeds against docs/ratchet.csv: the same means within five joint standard errors."""
-    kept = read_points(ROOT / "docs" / page.POINTS)
+    """Fresh runs of other seeds against the kept ones: the same means within five joint standard errors."""
+    kept = read_points(GENERATED / page.POINTS)
     for case, runs in ((quoted.POSITIVE, 10), (quoted.NEGATIVE, 10), (frequency.case(25.0, 30), 6)):
         fresh = [case.run(1000 + seed) for seed in range(runs)]
         tables = laboratory.run(fresh, "fresh")

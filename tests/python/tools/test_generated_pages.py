@@ -36,7 +36,7 @@ def test_committed_stability_page_is_that_of_the_committed_data() -> None:
 
 def test_committed_page_of_binaries_is_that_of_the_committed_data() -> None:
     written = binaries_page.page(BINARIES)
-    again = "write it anew: scripts/release, then python -m tools binaries --data docs/binaries"
+    again = "write it anew: scripts/release, then python -m tools binaries --data docs/generated/binaries"
     assert written == BINARIES_PAGE.read_text(), again
 
 

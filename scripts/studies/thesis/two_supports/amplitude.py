@@ -14,19 +14,8 @@ from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Statement, Verdict, verdict
 from jostle_lab.statistics.estimates import Numbers
-from studies.thesis.two_supports.runs import (
-    MARKERS,
-    NORMAL_STIFFNESS,
-    Torque,
-    Turning,
-    limits,
-    notes,
-    row,
-    slope,
-    slope_text,
-    turnings,
-    velocity,
-)
+from studies.thesis.two_supports.lines import Line
+from studies.thesis.two_supports.runs import MARKERS, Torque, limits, notes, slope, slope_text, turnings
 
 TILTS = tuple(share * math.pi for share in (0.0, 0.03, 0.06, 0.09, 0.12))
 """theta_T [rad], as in the captions."""
@@ -36,7 +25,7 @@ QUICK_EXCESS = (0.1, 0.3, 0.8, 1.5, 4.0, 10.0)
 
 
 @dataclass(frozen=True)
-class Line:
+class TiltLine(Line):
     """One tilt."""
 
     tilt: float
@@ -44,24 +33,8 @@ class Line:
     """A_S2 [N m], rigid contacts."""
     upper: float
     """A_S1 [N m]."""
-    torques: tuple[Torque, ...]
-    found: tuple[Turning, ...]
-    theory: Numbers
-    """5.9 at the same amplitudes, rigid contacts [rad/s]."""
-    soft: Numbers
-    """The same with the overlap of soft contacts."""
-    curve: tuple[Numbers, Numbers]
-    """Amplitudes and 5.9, close together."""
-
-    @property
-    def amplitudes(self) -> Numbers:
-        """A_e [N m]."""
-        return np.array([torque.amplitude for torque in self.torques])
-
-    @property
-    def velocities(self) -> Numbers:
-        """Simulated [rad/s]."""
-        return np.array([found.velocity for found in self.found])
+    dense: Numbers
+    """Amplitudes of `curve` [N m]."""
 
     def between(self, low: float, high: float) -> tuple[Numbers, Numbers, Numbers]:
         """A_e - A_S2, simulation and theory where that is between so many widths A_S1 - A_S2."""
@@ -70,7 +43,7 @@ class Line:
         return self.amplitudes[inside] - self.lower, self.velocities[inside], self.theory[inside]
 
 
-def lines(laboratory: Laboratory, title: str, quick: bool) -> list[Line]:
+def lines(laboratory: Laboratory, title: str, quick: bool) -> list[TiltLine]:
     """Run all tilts."""
     bounds = {tilt: limits(laboratory, tilt) for tilt in TILTS}
     widest = bounds[TILTS[1]]["A_S1"] - bounds[TILTS[1]]["A_S2"]
@@ -83,35 +56,20 @@ def lines(laboratory: Laboratory, title: str, quick: bool) -> list[Line]:
     done = turnings(laboratory, title, [torque for torques in chosen.values() for torque in torques])
     found = []
     for tilt, torques in chosen.items():
-        amplitudes = [torque.amplitude for torque in torques]
-        dense = np.linspace(0.95 * bounds[tilt]["A_S2"], max(amplitudes), 200)
-        found.append(
-            Line(
-                tilt,
-                bounds[tilt]["A_S2"],
-                bounds[tilt]["A_S1"],
-                torques,
-                tuple(done[torque] for torque in torques),
-                velocity(laboratory, [tilt], amplitudes)["angular_velocity"],
-                velocity(laboratory, [tilt], amplitudes, normal_stiffness=NORMAL_STIFFNESS)["angular_velocity"],
-                (dense, velocity(laboratory, [tilt], [float(a) for a in dense])["angular_velocity"]),
-            )
-        )
+        lower, upper = bounds[tilt]["A_S2"], bounds[tilt]["A_S1"]
+        dense = np.linspace(0.95 * lower, torques[-1].amplitude, 200)
+        close = [Torque(tilt, float(amplitude)) for amplitude in dense]
+        line = TiltLine.of(laboratory, torques, done, close, tilt=tilt, lower=lower, upper=upper, dense=dense)
+        found.append(line)
     return found
 
 
-def rows(found: Sequence[Line]) -> list[dict[str, Any]]:
+def rows(found: Sequence[TiltLine]) -> list[dict[str, Any]]:
     """Data, with both theories."""
-    return [
-        row(torque, turned, theory) | {"theory_with_overlap": soft, "A_S1": line.upper, "A_S2": line.lower}
-        for line in found
-        for torque, turned, theory, soft in zip(
-            line.torques, line.found, line.theory.tolist(), line.soft.tolist(), strict=True
-        )
-    ]
+    return [row for line in found for row in line.rows(A_S1=line.upper, A_S2=line.lower)]
 
 
-def _plot(panel: Axes, found: Sequence[Line], connect: bool) -> None:
+def _plot(panel: Axes, found: Sequence[TiltLine], connect: bool) -> None:
     """Points of the simulation, joined or with the curve of 5.9."""
     for line, marker, colour in zip(found, MARKERS, shades(len(found)), strict=True):
         label = rf"$\theta_T$ = {line.tilt / math.pi:.2f} $\pi$"
@@ -120,13 +78,13 @@ def _plot(panel: Axes, found: Sequence[Line], connect: bool) -> None:
             line.amplitudes, line.velocities, marker + style, color=colour, mfc="white", ms=4.5, lw=0.8, label=label
         )
         if not connect:
-            panel.plot(*line.curve, color=colour, lw=0.9)
+            panel.plot(line.dense, line.curve, color=colour, lw=0.9)
     panel.axhline(0.0, color="0.5", lw=0.5, zorder=0)
     panel.set(xlabel="$A_e$ [N m]", ylabel=r"$\bar\omega$ [rad/s]")
     panel.legend()
 
 
-def _deviation(line: Line, theory: Numbers) -> float:
+def _deviation(line: TiltLine, theory: Numbers) -> float:
     """Largest deviation from a theory while no contact opens, relative to the largest velocity of the line."""
     lasting = np.array([not found.opened for found in line.found])
     return float(np.max(np.abs(line.velocities - theory)[lasting]) / np.max(np.abs(theory)))
@@ -171,7 +129,7 @@ def linear(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Pr
     return Product("Figure 5.2: angular velocity against torque", rows(found), figure, stated, notes())
 
 
-def _onset(line: Line) -> float:
+def _onset(line: TiltLine) -> float:
     """Amplitude from which on the disk turns: where the root of the unidirectional velocities vanishes [N m]."""
     excess = (line.amplitudes - line.lower) / (line.upper - line.lower)
     inside = (excess > 0.0) & (excess < 0.6)
@@ -181,7 +139,7 @@ def _onset(line: Line) -> float:
     return float(np.polyval(np.polyfit(root, line.amplitudes[inside], degree), 0.0))
 
 
-def _lasting(found: Sequence[Line]) -> Statement:
+def _lasting(found: Sequence[TiltLine]) -> Statement:
     runs = [pair for line in found for pair in zip(line.torques, line.found, strict=True)]
     opened = [torque for torque, turned in runs if turned.opened]
     where = "; ".join(f"{t.tilt / math.pi:.2f} pi, {t.amplitude:.3f} N m" for t in opened)
@@ -201,7 +159,7 @@ def logarithmic(laboratory: Laboratory, quick: bool, _seeds: int | None = None) 
     for line, marker, colour in zip(found, MARKERS[1:], shades(len(found)), strict=True):
         above, simulated, _ = line.between(0.0, math.inf)
         width = line.upper - line.lower
-        at, theory = line.curve
+        at, theory = line.dense, line.curve
         label = rf"$\theta_T$ = {line.tilt / math.pi:.2f} $\pi$"
         plain.loglog(above, simulated, marker, color=colour, mfc="white", ms=4.5, label=label)
         scaled.loglog(above / width, simulated / width**2, marker, color=colour, mfc="white", ms=4.5)
@@ -233,7 +191,7 @@ def _guides(panel: Axes) -> None:
     panel.loglog(high, 2.0 * unit * high, "k:", lw=1.2, label="slope 1")
 
 
-def _scaling_statements(found: Sequence[Line]) -> list[Statement]:
+def _scaling_statements(found: Sequence[TiltLine]) -> list[Statement]:
     ranges = {"unidirectional": (0.08, 0.9), "bidirectional": (3.0, math.inf)}
     slopes = {
         name: [(slope(x, y), slope(x, t)) for x, y, t in (line.between(*window) for line in found)]

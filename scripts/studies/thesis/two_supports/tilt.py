@@ -13,20 +13,8 @@ from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Statement, Verdict, verdict
 from jostle_lab.statistics.estimates import Numbers
-from studies.thesis.two_supports.runs import (
-    MARKERS,
-    NORMAL_STIFFNESS,
-    SCENE,
-    Torque,
-    Turning,
-    limits,
-    notes,
-    row,
-    slope,
-    slope_text,
-    turnings,
-    velocity,
-)
+from studies.thesis.two_supports.lines import Line
+from studies.thesis.two_supports.runs import MARKERS, SCENE, Torque, limits, notes, slope, slope_text, turnings
 
 AMPLITUDES = (0.100, 0.105, 0.110, 0.113, 0.115)
 """A_e [N m], as in the captions."""
@@ -38,30 +26,14 @@ LOWEST = 1e-9
 
 
 @dataclass(frozen=True)
-class Line:
+class AmplitudeLine(Line):
     """One amplitude."""
 
     amplitude: float
     onset: float
     """theta_S2 [rad], zero if the disk slides without tilt."""
-    torques: tuple[Torque, ...]
-    found: tuple[Turning, ...]
-    theory: Numbers
-    """5.9 at the same tilts [rad/s]."""
-    soft: Numbers
-    """The same with the overlap of soft contacts."""
-    curve: tuple[Numbers, Numbers]
-    """Tilts and 5.9, close together."""
-
-    @property
-    def tilts(self) -> Numbers:
-        """theta_T [rad]."""
-        return np.array([torque.tilt for torque in self.torques])
-
-    @property
-    def velocities(self) -> Numbers:
-        """Simulated [rad/s]."""
-        return np.array([found.velocity for found in self.found])
+    dense: Numbers
+    """Tilts of `curve` [rad]."""
 
     def scaling(self, low: float = 0.0, high: float = math.inf) -> tuple[Numbers, Numbers, Numbers]:
         """theta_T - theta_S2, simulation and theory where the disk turns and that is between these [rad]."""
@@ -70,7 +42,7 @@ class Line:
         return beyond[inside], self.velocities[inside], self.theory[inside]
 
 
-def lines(laboratory: Laboratory, title: str, quick: bool) -> list[Line]:
+def lines(laboratory: Laboratory, title: str, quick: bool) -> list[AmplitudeLine]:
     """Run all amplitudes."""
     regimes = laboratory.theory(SCENE, "regime", torque__amplitude=AMPLITUDES)
     onsets = dict(zip(AMPLITUDES, regimes["critical_tilt"].tolist(), strict=True))
@@ -83,36 +55,23 @@ def lines(laboratory: Laboratory, title: str, quick: bool) -> list[Line]:
         chosen[amplitude] = tuple(Torque(tilt, amplitude) for tilt in tilts)
     done = turnings(laboratory, title, [torque for torques in chosen.values() for torque in torques])
     dense = [float(tilt) for tilt in np.linspace(1e-4, limits(laboratory, 0.0)["detachment_tilt"] - 1e-9, 300)]
-    found = []
-    for amplitude, torques in chosen.items():
-        at = [torque.tilt for torque in torques]
-        theory = [
-            velocity(laboratory, at, [amplitude], normal_stiffness=k)["angular_velocity"]
-            for k in (math.inf, NORMAL_STIFFNESS)
-        ]
-        found.append(
-            Line(
-                amplitude,
-                onsets[amplitude],
-                torques,
-                tuple(done[torque] for torque in torques),
-                theory[0],
-                theory[1],
-                (np.array(dense), velocity(laboratory, dense, [amplitude])["angular_velocity"]),
-            )
-        )
-    return found
-
-
-def rows(found: Sequence[Line]) -> list[dict[str, Any]]:
-    """Data, with both theories."""
     return [
-        row(torque, turned, theory) | {"theory_with_overlap": soft, "theta_S2": line.onset}
-        for line in found
-        for torque, turned, theory, soft in zip(
-            line.torques, line.found, line.theory.tolist(), line.soft.tolist(), strict=True
+        AmplitudeLine.of(
+            laboratory,
+            torques,
+            done,
+            [Torque(tilt, amplitude) for tilt in dense],
+            amplitude=amplitude,
+            onset=onsets[amplitude],
+            dense=np.array(dense),
         )
+        for amplitude, torques in chosen.items()
     ]
+
+
+def rows(found: Sequence[AmplitudeLine]) -> list[dict[str, Any]]:
+    """Data, with both theories."""
+    return [row for line in found for row in line.rows(theta_S2=line.onset)]
 
 
 def linear(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Product:
@@ -130,14 +89,14 @@ def linear(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Pr
             ms=4.5,
             label=f"$A_e$ = {line.amplitude}",
         )
-        panel.plot(line.curve[0] / math.pi, line.curve[1], color=colour, lw=0.8)
+        panel.plot(line.dense / math.pi, line.curve, color=colour, lw=0.8)
     panel.axhline(0.0, color="0.5", lw=0.5, zorder=0)
     panel.set(xlabel=r"$\theta_T$ [$\pi$]", ylabel=r"$\bar\omega$ [rad/s]")
     panel.legend()
     return Product("Figure 5.4: angular velocity against tilt", rows(found), figure, _linear_statements(found), notes())
 
 
-def _linear_statements(found: Sequence[Line]) -> list[Statement]:
+def _linear_statements(found: Sequence[AmplitudeLine]) -> list[Statement]:
     first, middle, last = found[0], found[1:4], found[4]
     turned = float(np.max(np.abs(first.velocities)))
     at_rest = {
@@ -201,8 +160,8 @@ def logarithmic(laboratory: Laboratory, quick: bool, _seeds: int | None = None) 
     for line, marker, colour in zip(found, MARKERS[1:], shades(len(found)), strict=True):
         beyond, simulated, _ = line.scaling()
         panel.loglog(beyond, simulated, marker, color=colour, mfc="white", ms=4.5, label=f"$A_e$ = {line.amplitude}")
-        at = line.curve[0] > line.onset + 1e-3
-        panel.loglog(line.curve[0][at] - line.onset, line.curve[1][at], color=colour, lw=0.8)
+        at = line.dense > line.onset + 1e-3
+        panel.loglog(line.dense[at] - line.onset, line.curve[at], color=colour, lw=0.8)
     guide = np.array([3e-3, 0.4])
     panel.loglog(guide, 1.2 * guide**2, "k--", lw=1.0, label="slope 2")
     panel.set(xlabel=r"$\theta_T - \theta_{S2}$ [rad]", ylabel=r"$\bar\omega$ [rad/s]", ylim=(1e-7, 0.2))
@@ -214,13 +173,13 @@ def logarithmic(laboratory: Laboratory, quick: bool, _seeds: int | None = None) 
         Statement(
             "5.2.2, Fig. 5.5",
             "unidirectional: almost quadratic in theta_T - theta_S2",
-            "; ".join(f"{a:.3f}: {_told(close[a])}" for a in AMPLITUDES[1:4]),
+            "; ".join(f"{a:.3f}: {_both(close[a])}" for a in AMPLITUDES[1:4]),
             verdict(all(abs(close[a][0][0] - 2.0) < 0.25 for a in AMPLITUDES[1:4])),
         ),
         Statement(
             "5.2.2, Fig. 5.5",
             "A_e = 0.115: quadratic for large tilts only",
-            f"slope {_told(close[0.115])} at small tilts, {_told(wide[0.115])} from 0.2 rad on; omega goes as "
+            f"slope {_both(close[0.115])} at small tilts, {_both(wide[0.115])} from 0.2 rad on; omega goes as "
             "sin theta_T (A_e - A_0 cos theta_T): first as theta, then as theta^3, quadratic in between",
             Verdict.PARTLY if wide[0.115][0][0] > 2.2 else Verdict.AGREES,
         ),
@@ -232,7 +191,7 @@ def logarithmic(laboratory: Laboratory, quick: bool, _seeds: int | None = None) 
 Slopes = tuple[tuple[float, float], tuple[float, float]]
 
 
-def _slopes(line: Line, low: float, high: float) -> Slopes:
+def _slopes(line: AmplitudeLine, low: float, high: float) -> Slopes:
     """Of the simulation and of the theory at the same points."""
     beyond, simulated, theory = line.scaling(low, high)
     if len(beyond) < 2:
@@ -240,5 +199,5 @@ def _slopes(line: Line, low: float, high: float) -> Slopes:
     return slope(beyond, simulated), slope(beyond, theory)
 
 
-def _told(slopes: Slopes) -> str:
+def _both(slopes: Slopes) -> str:
     return f"{slope_text(slopes[0])} (5.9: {slopes[1][0]:.3f})"

@@ -58,7 +58,7 @@ def curve(means: list[float], noise: float = 0.05) -> Curve:
     return Curve(tuple(float(i) for i in range(len(means))), points)
 
 
-def test_monotone_curves_are_told_from_others() -> None:
+def test_monotone_curves_are_distinguished_from_others() -> None:
     rising = curve([0.0, 0.1, 0.2, 0.2, 0.5, 0.9])
     assert rising.monotone(rising=True) > 0.01
     assert rising.monotone(rising=False) < 1e-6
@@ -87,7 +87,7 @@ def test_a_case_knows_its_layers_and_names_all_it_changes() -> None:
     assert words[words.index("--disks") + 1] == "20"
 
 
-def test_points_are_kept_as_they_are_and_missing_ones_are_told(tmp_path: Path) -> None:
+def test_points_are_kept_as_they_are_and_missing_ones_are_reported(tmp_path: Path) -> None:
     first, second = Case(3.0, 0.1, 25.0, 20), Case(6.0, 0.25, frequency_of(1.31), 50).with_changes(drive__phase=1.5)
     points = {first: Point((4.123, -0.5, 0.0)), second: Point((1.0, 2.0))}
     write_points(tmp_path / "points.csv", points)

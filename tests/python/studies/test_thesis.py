@@ -77,7 +77,7 @@ def test_crossing_is_where_the_line_is_zero_and_noise_crosses_nothing() -> None:
     assert zero_crossings(x, [Estimate((-1.0) ** v * 0.01, 0.01) for v in x]) == []
 
 
-def test_lasting_rotation_is_told_from_a_random_walk() -> None:
+def test_lasting_rotation_is_distinguished_from_a_random_walk() -> None:
     generator = np.random.default_rng(6)
     rate = math.tau / 60.0
     steady = np.outer(np.arange(101.0), np.full(4000, 3.0 * rate))
@@ -122,7 +122,7 @@ def test_runs_are_kept_and_not_done_twice(laboratory: Laboratory, monkeypatch: p
     assert again.spent == laboratory.spent
 
 
-def test_refused_parameter_is_told_with_the_programs_own_words(laboratory: Laboratory) -> None:
+def test_refused_parameter_is_reported_with_the_programs_own_words(laboratory: Laboratory) -> None:
     with pytest.raises(LabError, match=r"wedge\.tilt"):
         laboratory.run([Wedge().run(31.0, 1, 1.0)], "refused")
     with pytest.raises(LabError, match="cargo build"):

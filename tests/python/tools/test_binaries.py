@@ -47,7 +47,7 @@ def test_what_ships_runs_on_an_old_system(library: Path):
     assert found.libraries <= SYSTEM
 
 
-def test_a_stripped_library_is_told():
+def test_a_stripped_library_is_reported():
     with pytest.raises(Exception, match="no symbol table"):
         strangers(RELEASE / "libjostle_packing.so")
 
@@ -56,6 +56,6 @@ def abort(_fmu: Path) -> None:
     os.abort()
 
 
-def test_a_process_that_a_panic_ends_is_told(tmp_path: Path):
+def test_a_process_that_a_panic_ends_is_reported(tmp_path: Path):
     with pytest.raises(LabError, match="ended its process with exit code -6"):
         in_a_child(abort, tmp_path / "it.fmu")

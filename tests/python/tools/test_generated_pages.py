@@ -68,6 +68,6 @@ def test_time_at_an_error_lies_on_the_curve() -> None:
     assert crossed is not None and 4.0 < crossed < 8.0 and not math.isnan(crossed)
 
 
-def test_a_folder_without_data_is_told(tmp_path: Path) -> None:
+def test_a_folder_without_data_is_reported(tmp_path: Path) -> None:
     with pytest.raises(LabError, match="jostle report --out"):
         diagrams(tmp_path)

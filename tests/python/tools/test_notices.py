@@ -63,7 +63,7 @@ def test_of_a_choice_the_preferred_licence_is_taken(tmp_path: Path):
     assert texts(crate(tmp_path / "d", "Zlib OR MIT", LICENSE="both")) == ["both"]
 
 
-def test_a_crate_without_a_licence_file_is_told(tmp_path: Path):
+def test_a_crate_without_a_licence_file_is_reported(tmp_path: Path):
     with pytest.raises(LabError, match=r"a 1\.2\.3 has no licence file"):
         texts(crate(tmp_path / "a", "MIT", README="MIT"))
 

@@ -115,7 +115,7 @@ def test_momentum_mean_force_is_minus_the_weight():
     assert np.mean(forces) == pytest.approx(-coupling.grains.weight, rel=1e-3)
 
 
-def test_unstable_exchange_is_told_with_the_remedy():
+def test_unstable_exchange_is_reported_with_the_remedy():
     with pytest.raises(LabError, match=r"jacobi exchange: the base is at .* smaller step \(now 0.000417 s\)"):
         Coupling(Loudspeaker(1.0 / 2400), SpringLump(), Exchange.JACOBI).run(24_000)
 

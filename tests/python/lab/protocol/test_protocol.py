@@ -118,7 +118,7 @@ def test_error_in_a_worker_reaches_the_user(tmp_path):
     assert json.loads((tmp_path / "run.json").read_text())["setup"]["steps_per_second"] == 800
 
 
-def test_empty_folder_is_told(tmp_path):
+def test_empty_folder_is_reported(tmp_path):
     with pytest.raises(LabError, match="no finished packing"):
         Results(tmp_path)
 

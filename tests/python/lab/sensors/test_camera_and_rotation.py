@@ -31,7 +31,7 @@ def test_unwrap_is_the_loop_of_the_thesis_with_the_sign_corrected():
 
 
 @pytest.mark.parametrize("rpm", [-14.9, -7.0, -0.01, 0.0, 3.0, 14.9])
-def test_slow_disks_are_seen_right(rpm):
+def test_slow_disks_are_measured_correctly(rpm):
     angles = (0.4 + rpm * RPM * np.arange(200.0))[:, None]
     path = unwrap(photograph(angles))
     np.testing.assert_allclose(path - path[0], angles - angles[0], atol=1e-9)

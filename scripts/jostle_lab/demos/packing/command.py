@@ -1,8 +1,10 @@
 """`jostle-lab demo`, `draw` and `exchanges`."""
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
+import polars as pl
 import typer
 
 from jostle_lab import locate, options
@@ -72,10 +74,13 @@ def demo(
 
 def _draw_first(results: Path) -> None:
     """Draw one picture as soon as one packing has gone through one interval."""
-    if not (results / FIRST_PICTURE).exists():
-        from jostle_lab.demos.packing import figures  # noqa: PLC0415 - not needed before, and its import takes a second
-        from jostle_lab.protocol.results import Results  # noqa: PLC0415
+    if (results / FIRST_PICTURE).exists():
+        return
+    from jostle_lab.demos.packing import figures  # noqa: PLC0415 - not needed before, and its import takes a second
+    from jostle_lab.protocol.results import Results  # noqa: PLC0415
 
+    # Another process may be replacing the tables at this moment: then the next interval gives the picture.
+    with suppress(LabError, OSError, pl.exceptions.PolarsError):
         path = figures.draw(FIRST_PICTURE, Results(results, unfinished=True))
         typer.echo(f"\n{path}: first picture, drawn after the strongest drive and again at the end")
 

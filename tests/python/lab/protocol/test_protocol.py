@@ -8,7 +8,7 @@ import pytest
 from fake_grains import make_turning_lump
 
 from jostle_lab.coupling.compare import compare_exchanges
-from jostle_lab.demos.packing.figures import draw_all
+from jostle_lab.demos.packing.figures import draw, draw_all
 from jostle_lab.demos.packing.numbers import write_report
 from jostle_lab.errors import LabError
 from jostle_lab.protocol import intervals as protocol
@@ -86,6 +86,21 @@ def test_pictures_and_page_are_written(finished):
     assert page.count("| 1.00 |") == 2
     assert "| loudspeaker |" in page
     assert "nan" not in page
+
+
+def test_a_picture_can_be_drawn_after_the_first_interval(tmp_path):
+    pictures, intervals = [], []
+
+    def draw_once():
+        intervals.append(len(list(tmp_path.glob("packings/*/packing.json"))))
+        if not pictures:
+            pictures.append(draw("packing.png", Results(tmp_path, unfinished=True)))
+
+    run(plan(tmp_path, processes=1), make_turning_lump, draw_once)
+    assert len(intervals) == 2 * 2
+    assert intervals[0] == 0  # no packing was finished when the picture was drawn
+    assert pictures[0].stat().st_size > 10_000
+    assert list(tmp_path.rglob("unfinished.json")) == []
 
 
 def test_finished_packings_are_not_run_again(finished):

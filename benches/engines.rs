@@ -4,34 +4,29 @@
 //! time (and for stiffness, by its square root), event-driven dynamics for impacts: the table shows where they cross.
 
 use cpu_time::ProcessTime;
-use std::sync::Arc;
 
 use jostle::drive::Sine;
 use jostle::scene::packing::PackingOnSine;
 use jostle::scene::packing::event_driven::HardPackingOnSine;
-use jostle::scene::{Choice, Scene, Table, Value, Values};
+use jostle::scene::{Model, Simulation};
 
-const CHOICE: Choice = Choice { disks: 60 };
 const SETTLE: f64 = 1.0;
 const RUNS: usize = 5;
 
 /// Median milliseconds per simulated second, or why there is none.
-fn cost<S: Scene>(gamma: f64, stiffness: f64, model: Option<i64>, seconds: f64) -> Result<f64, String> {
-    let mut values = Values::new(Arc::new(Table::new(S::variables(CHOICE))));
-    let real = |name: &str, value: f64, values: &mut Values| values.set_by_name(name, Value::Real(value));
-    let amplitude = Sine::amplitude_of(gamma, 80.0, 9.8);
+fn cost<M: Model>(gamma: f64, stiffness: f64, model: Option<i64>, seconds: f64) -> Result<f64, String> {
     let told = |error: jostle::Error| error.to_string();
-    real("drive.amplitude", amplitude, &mut values).map_err(told)?;
-    real("contact.normal_stiffness", stiffness, &mut values).map_err(told)?;
-    if let Some(model) = model {
-        values.set_by_name("base.model", Value::Integer(model)).map_err(told)?;
-    }
-    let mut scene = S::new(CHOICE, 0.0, &values).map_err(told)?;
-    scene.advance_to(SETTLE, &values).map_err(told)?;
+    let mut given = vec![
+        ("drive.amplitude", Sine::amplitude_of(gamma, 80.0, 9.8).into()),
+        ("contact.normal_stiffness", stiffness.into()),
+    ];
+    given.extend(model.map(|model| ("base.model", model.into())));
+    let mut simulation = Simulation::<M>::new(&[("disks", 60)], &given).map_err(told)?;
+    simulation.advance_to(SETTLE).map_err(told)?;
     let mut costs = Vec::with_capacity(RUNS);
     for run in 1..=RUNS {
         let start = ProcessTime::now();
-        scene.advance_to(SETTLE + run as f64 * seconds, &values).map_err(told)?;
+        simulation.advance_to(SETTLE + run as f64 * seconds).map_err(told)?;
         costs.push(start.elapsed().as_secs_f64() / seconds * 1e3);
     }
     costs.sort_by(f64::total_cmp);

@@ -7,8 +7,8 @@ use cpu_time::ProcessTime;
 use std::f64::consts::PI;
 
 use jostle::collision::{CollisionLaw, Coulomb, Smooth};
-use jostle::engine::event_driven::{EventDriven, Field, Gravity, Periodic, Settings, Unbounded, Weightless};
-use jostle::geometry::Disk;
+use jostle::engine::event_driven::{EventDriven, Model, Periodic, Region, Settings, Walls};
+use jostle::geometry::{Disk, Vector2};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -19,7 +19,7 @@ fn normal_pair(random: &mut Pcg64) -> [f64; 2] {
     [radius * angle.cos(), radius * angle.sin()]
 }
 
-fn lattice(count: usize, packing_fraction: f64) -> (Vec<Disk>, [f64; 2]) {
+fn lattice(count: usize, packing_fraction: f64) -> (Vec<Disk>, Vector2<f64>) {
     let mut across = ((count as f64).sqrt() + 0.5) as usize;
     across += across % 2;
     let lines = count / across;
@@ -36,12 +36,12 @@ fn lattice(count: usize, packing_fraction: f64) -> (Vec<Disk>, [f64; 2]) {
     };
     (
         (0..across * lines).map(disk).collect(),
-        [across as f64 * spacing, lines as f64 * rise],
+        Vector2::new(across as f64 * spacing, lines as f64 * rise),
     )
 }
 
-/// Runs a gas and returns CPU nanoseconds a collision, listings and stale events a collision, collisions, energy.
-fn run<L: CollisionLaw, F: Field>(law: L, field: F, count: usize, shell: f64, collisions: f64) -> [f64; 5] {
+/// Runs a gas and returns CPU nanoseconds a collision, list renewals and stale events a collision, collisions, energy.
+fn run<L: CollisionLaw>(law: L, gravity: f64, count: usize, shell: f64, collisions: f64) -> [f64; 5] {
     let (disks, size) = lattice(count, 0.6);
     let number = disks.len() as f64;
     let mut random = Pcg64::seed_from_u64(1);
@@ -63,12 +63,20 @@ fn run<L: CollisionLaw, F: Field>(law: L, field: F, count: usize, shell: f64, co
         .iter_mut()
         .for_each(|velocity| (0..2).for_each(|axis| velocity[axis] *= scale));
 
-    let types = (law, Unbounded, field, Periodic { size });
+    let model = Model {
+        law,
+        boundary: Walls::none(),
+        gravity,
+        space: Periodic(Region {
+            corner: Vector2::zeros(),
+            size,
+        }),
+    };
     let settings = Settings {
         shell,
         ..Settings::default()
     };
-    let mut engine = EventDriven::new(types, &disks, &vec![1.0; disks.len()], &velocities, settings);
+    let mut engine = EventDriven::new(model, &disks, &vec![1.0; disks.len()], &velocities, settings);
     // 6.15 collisions per disk and unit of time.
     let mut end = 20.0 / 6.15;
     engine.advance_to(end).expect("headway");
@@ -80,16 +88,11 @@ fn run<L: CollisionLaw, F: Field>(law: L, field: F, count: usize, shell: f64, co
     let after = engine.state().counts;
     let done = (after.disk_impacts - before.disk_impacts) as f64;
     let bodies = &engine.state().bodies;
-    let energy: f64 = bodies
-        .iter()
-        .map(|body| body.vx * body.vx + body.vy * body.vy)
-        .sum::<f64>()
-        / number
-        / 2.0;
-    let (listings, stale) = (after.listings - before.listings, after.stale - before.stale);
+    let energy: f64 = bodies.iter().map(|body| body.velocity.norm_squared()).sum::<f64>() / number / 2.0;
+    let (renewals, stale) = (after.list_renewals - before.list_renewals, after.stale - before.stale);
     [
         seconds / done * 1e9,
-        listings as f64 / done,
+        renewals as f64 / done,
         stale as f64 / done,
         done,
         energy,
@@ -104,17 +107,17 @@ fn main() {
         .collect();
     let smooth = Smooth::new(1.0).expect("elastic");
     if let [count, shell, collisions] = arguments[..] {
-        let [nanoseconds, ..] = run(smooth, Weightless, count as usize, shell, collisions);
+        let [nanoseconds, ..] = run(smooth, 0.0, count as usize, shell, collisions);
         println!("{nanoseconds:.1} ns a collision");
         return;
     }
     // Friction cools the gas and a trace of gravity lets it fall; both change little over the run.
     let rough = Coulomb::new(1.0, 0.01).expect("elastic along the normal");
     for count in [60, 1000, 10_000, 100_000] {
-        let [nanoseconds, listings, stale, done, energy] = run(smooth, Weightless, count, 1.8, 2e6);
-        let [rough, ..] = run(rough, Gravity(1e-9), count, 1.8, 2e6);
+        let [nanoseconds, renewals, stale, done, energy] = run(smooth, 0.0, count, 1.8, 2e6);
+        let [rough, ..] = run(rough, 1e-9, count, 1.8, 2e6);
         println!(
-            "{count:6} disks: {nanoseconds:6.1} ns a collision ({listings:.3} listings, {stale:.3} stale a collision, \
+            "{count:6} disks: {nanoseconds:6.1} ns a collision ({renewals:.3} list renewals, {stale:.3} stale a collision, \
              {done} collisions, energy {energy:.12}); with friction, spin and gravity {rough:6.1} ns, ratio {:.2}",
             rough / nanoseconds
         );

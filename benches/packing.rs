@@ -5,24 +5,19 @@
 //! half a simulated second of settling; built for the generic x86-64 that ships.
 
 use cpu_time::ProcessTime;
-use std::sync::Arc;
+use std::hint::black_box;
 
 use jostle::drive::Sine;
+use jostle::scene::Simulation;
 use jostle::scene::packing::PackingOnSine;
-use jostle::scene::{Choice, Scene, Table, Value, Values};
 
 const RUNS: usize = 7;
 
-fn packing(disks: u32, gamma: f64) -> (PackingOnSine, Values) {
-    let choice = Choice { disks };
-    let mut values = Values::new(Arc::new(Table::new(PackingOnSine::variables(choice))));
+fn packing(disks: u32, gamma: f64) -> Simulation<PackingOnSine> {
     let width = 0.4 * (f64::from(disks) / 60.0).sqrt();
     let amplitude = Sine::amplitude_of(gamma, 80.0, 9.8);
-    for (name, value) in [("box.width", width), ("drive.amplitude", amplitude)] {
-        values.set_by_name(name, Value::Real(value)).expect("a legal value");
-    }
-    let packing = PackingOnSine::new(choice, 0.0, &values).expect("a legal packing");
-    (packing, values)
+    let given = [("box.width", width.into()), ("drive.amplitude", amplitude.into())];
+    Simulation::new(&[("disks", disks)], &given).expect("a legal packing")
 }
 
 /// Median seconds of `RUNS` calls of `work`.
@@ -47,43 +42,48 @@ fn main() {
         (1000, 4.0, 0.05),
         (10_000, 4.0, 5e-3),
     ] {
-        let (mut packing, values) = packing(disks, gamma);
-        packing
-            .advance_to(0.5_f64.min(10.0 * horizon), &values)
-            .expect("settles");
-        let mut end = packing.engine().time();
+        let mut packing = packing(disks, gamma);
+        packing.advance_to(0.5_f64.min(10.0 * horizon)).expect("settles");
+        let mut end = packing.model().expect("started").engine().time();
         let seconds = median(|| {
             end += horizon;
-            packing.advance_to(end, &values).expect("runs");
+            packing.advance_to(end).expect("runs");
         });
-        let step = packing.engine().setup().time_step;
+        let engine = packing.model().expect("started").engine();
+        let step = engine.setup().time_step;
         println!(
             "{disks:5}  {gamma:5}  {step:.3e}  {:8}  {:20.2}  {:.2}",
-            packing.engine().now().contacts,
+            engine.now().contacts,
             seconds / (horizon / step) / f64::from(disks) * 1e9,
             horizon / seconds
         );
     }
-    let (mut packing, values) = packing(60, 4.0);
-    let step = packing.engine().setup().time_step;
-    let mut seen = values.clone();
+    let mut packing = packing(60, 4.0);
+    let step = packing.model().expect("started").engine().setup().time_step;
     let calls = 1000_u32;
     let mut time = 0.0;
-    let look = median(|| {
+    let between = median(|| {
         for _ in 0..calls {
             time += step * 1e-4 / f64::from(calls);
-            packing.advance_to(time, &values).expect("runs");
+            packing.advance_to(time).expect("runs");
         }
     });
-    let write = median(|| (0..calls).for_each(|_| packing.write_outputs(seen.writer())));
-    let mut saved = packing.state();
-    let save = median(|| (0..calls).for_each(|_| saved = packing.state()));
+    let read = median(|| {
+        (0..calls).for_each(|_| {
+            black_box(packing.all_values().expect("started"));
+        });
+    });
+    let mut saved = packing.save();
+    let save = median(|| (0..calls).for_each(|_| saved = packing.save()));
     let restore = median(|| (0..calls).for_each(|_| packing.restore(&saved).expect("restores")));
     let each = |seconds: f64| seconds / f64::from(calls) * 1e6;
-    println!("one communication step between two grid points: {:.2} us", each(look));
     println!(
-        "all outputs written: {:.2} us; state saved: {:.2} us, restored: {:.2} us",
-        each(write),
+        "one communication step between two grid points: {:.2} us",
+        each(between)
+    );
+    println!(
+        "all outputs read: {:.2} us; state saved: {:.2} us, restored: {:.2} us",
+        each(read),
         each(save),
         each(restore)
     );

@@ -6,30 +6,26 @@
 //! - impacts: CPU time of an impact on the oscillating base, all that lies between two of them included, over that of an
 //!   impact of two disks in a gas with the same law, both of 25 disks.
 
-use std::sync::Arc;
-
 use cpu_time::ProcessTime;
 use jostle::collision::{Coulomb, VelocityFloor};
-use jostle::engine::event_driven::{Counts, EventDriven, Gravity, Periodic, Settings, Unbounded};
-use jostle::geometry::Disk;
+use jostle::engine::event_driven::{Counts, EventDriven, Model, Periodic, Region, Settings, Walls};
+use jostle::geometry::{Disk, Vector2};
 use jostle::scene::ratchet::RatchetOnSine;
-use jostle::scene::{Choice, Scene, Table, Value, Values};
+use jostle::scene::{Simulation, Value};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 /// A ratchet of so many disks and teeth after two seconds.
-fn ratchet(disks: u32, teeth: i64, changes: &[(&str, f64)]) -> (RatchetOnSine, Values) {
-    let choice = Choice { disks };
-    let mut values = Values::new(Arc::new(Table::new(RatchetOnSine::variables(choice))));
-    for (name, value) in changes {
-        values.set_by_name(name, Value::Real(*value)).expect("a parameter");
-    }
-    values
-        .set_by_name("tooth.count", Value::Integer(teeth))
-        .expect("a parameter");
-    let mut ratchet = RatchetOnSine::new(choice, 0.0, &values).expect("a ratchet");
-    ratchet.advance_to(2.0, &values).expect("headway");
-    (ratchet, values)
+fn ratchet(disks: u32, teeth: i64, changes: &[(&str, f64)]) -> Simulation<RatchetOnSine> {
+    let mut given: Vec<(&str, Value)> = changes.iter().map(|(name, value)| (*name, (*value).into())).collect();
+    given.push(("tooth.count", teeth.into()));
+    let mut ratchet = Simulation::new(&[("disks", disks)], &given).expect("a ratchet");
+    ratchet.advance_to(2.0).expect("progress");
+    ratchet
+}
+
+fn counts(ratchet: &Simulation<RatchetOnSine>) -> Counts {
+    ratchet.model().expect("a started simulation").engine().state().counts
 }
 
 /// What a run did: CPU time and simulated time \[s\], and its counts.
@@ -45,7 +41,7 @@ impl Done {
     fn between(cpu: f64, simulated: f64, before: Counts, after: Counts) -> Self {
         let disk_impacts = (after.disk_impacts - before.disk_impacts) as f64;
         let wall_impacts = (after.wall_impacts - before.wall_impacts) as f64;
-        let others = (after.listings - before.listings + after.stale - before.stale) as f64;
+        let others = (after.list_renewals - before.list_renewals + after.stale - before.stale) as f64;
         Self {
             cpu,
             simulated,
@@ -57,16 +53,16 @@ impl Done {
 }
 
 /// Advances in one step until about `cpu` seconds are gone.
-fn measure((mut ratchet, values): (RatchetOnSine, Values), cpu: f64) -> Done {
-    let (begin, before) = (2.0, ratchet.engine().state().counts);
+fn measure(mut ratchet: Simulation<RatchetOnSine>, cpu: f64) -> Done {
+    let (begin, before) = (2.0, counts(&ratchet));
     let (start, mut time) = (ProcessTime::now(), begin);
     let mut step = 0.05;
     while start.elapsed().as_secs_f64() < cpu {
         step *= 1.2;
         time += step;
-        ratchet.advance_to(time, &values).expect("headway");
+        ratchet.advance_to(time).expect("progress");
     }
-    let after = ratchet.engine().state().counts;
+    let after = counts(&ratchet);
     Done::between(start.elapsed().as_secs_f64(), time - begin, before, after)
 }
 
@@ -133,20 +129,27 @@ fn gas(disks: usize) -> f64 {
     let all: Vec<Disk> = (0..across * across).map(place).collect();
     let velocities: Vec<[f64; 3]> = all.iter().map(|_| [unit(), unit(), 0.0]).collect();
     let law = VelocityFloor::new(Coulomb::new(1.0, 0.0).expect("a law"), 1e-9).expect("a law");
-    let size = [across as f64 * spacing; 2];
     let settings = Settings {
         shell: 2.0,
         ..Settings::default()
     };
-    let types = (law, Unbounded, Gravity(1e-9), Periodic { size });
-    let mut engine = EventDriven::new(types, &all, &vec![1e-5; all.len()], &velocities, settings);
-    engine.advance_to(0.5).expect("headway");
+    let model = Model {
+        law,
+        boundary: Walls::none(),
+        gravity: 1e-9,
+        space: Periodic(Region {
+            corner: Vector2::zeros(),
+            size: Vector2::repeat(across as f64 * spacing),
+        }),
+    };
+    let mut engine = EventDriven::new(model, &all, &vec![1e-5; all.len()], &velocities, settings);
+    engine.advance_to(0.5).expect("progress");
     let before = engine.state().counts.disk_impacts;
     let (start, mut time, mut step) = (ProcessTime::now(), 0.5, 0.01);
     while start.elapsed().as_secs_f64() < 1.0 {
         step *= 1.2;
         time += step;
-        engine.advance_to(time).expect("headway");
+        engine.advance_to(time).expect("progress");
     }
     start.elapsed().as_secs_f64() / (engine.state().counts.disk_impacts - before) as f64
 }
@@ -174,9 +177,9 @@ fn profile() {
         eprintln!("profile DISKS SECONDS");
         return;
     };
-    let (mut ratchet, values) = ratchet(disks as u32, 10, POSITIVE);
-    ratchet.advance_to(2.0 + seconds, &values).expect("headway");
-    println!("{:?}", ratchet.engine().state().counts);
+    let mut ratchet = ratchet(disks as u32, 10, POSITIVE);
+    ratchet.advance_to(2.0 + seconds).expect("progress");
+    println!("{:?}", counts(&ratchet));
 }
 
 fn main() {

@@ -6,25 +6,27 @@
 
 use std::f64::consts::FRAC_PI_6;
 use std::hint::black_box;
-use std::sync::Arc;
 
 use cpu_time::ProcessTime;
-use jostle::contact::{ElasticSkin, LinearDashpot};
+use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
 use jostle::drive::excitation::{Excitation, HarmonicTorque, HeldTorque, SupportMotion};
-use jostle::engine::molecular_dynamics::{self, ContactLaws, Gear5, Integrator, MolecularDynamics, VelocityVerlet};
-use jostle::engine::three_disk::{Bench, Frame, Setup, ThreeDisk, TimeStepLimits, equilibrium};
+use jostle::engine::Engine;
+use jostle::engine::dem::verlet::{Gear5, Integrator, PredictorCorrector, VelocityVerlet};
+use jostle::engine::dem::{self, ContactLaws, FixedGrid};
+use jostle::engine::disk_on_two_supports::{DiskOnTwoSupports, Frame, Rig, Setup, TimeStepLimits, equilibrium};
 use jostle::geometry::{Disk, Wall};
-use jostle::scene::three_disk::{
-    ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
+use jostle::scene::disk_on_two_supports::{
+    DiskOnTwoSupportsOnHarmonicTorque, DiskOnTwoSupportsOnInput, DiskOnTwoSupportsOnRandomSupports,
+    DiskOnTwoSupportsOnSine,
 };
-use jostle::scene::{Choice, Scene, Table, Value, Values};
+use jostle::scene::{Model, Simulation};
 
 const TILT: f64 = 0.1;
 
-/// P 5.1 with this skin.
-fn bench(stiffness: f64, walls: bool) -> Bench {
-    Bench {
+/// P 5.1 with this tangential stiffness.
+fn rig(stiffness: f64, walls: bool) -> Rig {
+    Rig {
         radius: 1.0,
         mass: 0.1,
         gravity: 10.0,
@@ -32,7 +34,7 @@ fn bench(stiffness: f64, walls: bool) -> Bench {
             stiffness: 1e3,
             damping: 10.0,
         },
-        skin: ElasticSkin {
+        tangential: TangentialSpring {
             stiffness,
             friction: 0.1,
         },
@@ -67,20 +69,20 @@ const HEIGHT: f64 = 5e-3;
 const SPIN: f64 = 0.2;
 
 /// One disk that falls on two walls and comes to rest, by the engine of this scene.
-fn fall(bench: Bench, step: f64, seconds: f64) -> Motion {
-    let [x, y] = equilibrium(&bench, &[SupportMotion::REST; 2]).expect("rests");
+fn fall(rig: Rig, step: f64, seconds: f64) -> Motion {
+    let [x, y] = equilibrium(&rig, &[SupportMotion::REST; 2]).expect("rests");
     let torque = HeldTorque {
         torque: 0.0,
         rate: 0.0,
         since: 0.0,
     };
     let place = [x, y + HEIGHT, 0.0];
-    let mut disk = ThreeDisk::new(Setup::new(bench, step), torque, 0.0, place, [0.0, 0.0, SPIN]);
+    let mut disk = DiskOnTwoSupports::new(Setup::new(rig, step), torque, 0.0, place, [0.0, 0.0, SPIN]);
     disk.advance(seconds, false).expect("runs");
     motion(&disk)
 }
 
-fn motion<E: Excitation>(disk: &ThreeDisk<E>) -> Motion {
+fn motion<E: Excitation>(disk: &DiskOnTwoSupports<E>) -> Motion {
     let now = &disk.state().now;
     [
         now.disk[0],
@@ -93,45 +95,46 @@ fn motion<E: Excitation>(disk: &ThreeDisk<E>) -> Motion {
 }
 
 /// The same by molecular dynamics of any number of disks.
-fn general<I: Integrator>(bench: Bench, step: f64, seconds: f64) -> Motion {
-    let [x, y] = equilibrium(&bench, &[SupportMotion::REST; 2]).expect("rests");
+fn general<I: Integrator>(rig: Rig, step: f64, seconds: f64) -> Motion {
+    let [x, y] = equilibrium(&rig, &[SupportMotion::REST; 2]).expect("rests");
     // Where the disk just touches both walls, from their vertex.
     let touching = [-TILT.sin(), TILT.cos()].map(|part| part / FRAC_PI_6.cos());
-    let setup = molecular_dynamics::Setup {
+    let setup = dem::Setup {
         laws: ContactLaws {
-            normal: bench.normal,
-            skin: bench.skin,
+            normal: rig.normal,
+            tangential: rig.tangential,
         },
         walls: vec![
             Wall::vibrating_slope(TILT - FRAC_PI_6),
             Wall::vibrating_slope(TILT + FRAC_PI_6),
         ],
-        masses: vec![bench.mass],
-        gravity: bench.gravity,
+        masses: vec![rig.mass],
+        gravity: rig.gravity,
         time_step: step,
         start_time: 0.0,
     };
     let disk = Disk {
         x: touching[0] + x,
         y: touching[1] + y + HEIGHT,
-        radius: bench.radius,
+        radius: rig.radius,
     };
     let rest = Sine {
         amplitude: 0.0,
         frequency: 1.0,
         phase: 0.0,
     };
-    let mut engine = MolecularDynamics::<I, Sine>::new(setup, &[disk], rest);
-    engine.set_motion(|state| state.velocity[2] = SPIN);
+    let mut engine = FixedGrid::<PredictorCorrector<I>, Sine>::new(setup, &[disk], rest);
+    engine.set_motion(|disks| disks.velocity[2] = SPIN);
     engine.advance_to(seconds).expect("runs");
-    let ([x, y, angle], [vx, vy, spin]) = (engine.now().places()[0], engine.now().rates()[0]);
+    let now = engine.observables();
+    let ([x, y, angle], [vx, vy, spin]) = (now.positions[0], now.velocities[0]);
     [x - touching[0], y - touching[1], angle, vx, vy, spin]
 }
 
 fn against_general_molecular_dynamics(stiffness: f64) {
-    let (bench, seconds) = (bench(stiffness, true), 0.5);
-    let limits = TimeStepLimits::of(&bench, None);
-    let exact = fall(bench, 0.1 * limits.largest, seconds);
+    let (rig, seconds) = (rig(stiffness, true), 0.5);
+    let limits = TimeStepLimits::of(&rig, None);
+    let exact = fall(rig, 0.1 * limits.largest, seconds);
     println!("fall on two walls, k_t = {stiffness:e} N/m, {seconds} s: step, CPU ms per simulated s, error");
     let told = |name: &str, step: f64, (cpu, found): (f64, Motion)| {
         println!(
@@ -142,34 +145,34 @@ fn against_general_molecular_dynamics(stiffness: f64) {
     };
     for radians in [2.0, 1.0, 0.5, 0.25] {
         let step = radians * limits.largest;
-        told("three_disk", step, timed(|| fall(bench, step, seconds)));
+        told("three_disk", step, timed(|| fall(rig, step, seconds)));
     }
     for radians in [0.1, 0.025, 0.00625] {
         let step = radians * limits.largest;
         told(
             "velocity Verlet",
             step,
-            timed(|| general::<VelocityVerlet>(bench, step, seconds)),
+            timed(|| general::<VelocityVerlet>(rig, step, seconds)),
         );
-        told("Gear", step, timed(|| general::<Gear5>(bench, step, seconds)));
+        told("Gear", step, timed(|| general::<Gear5>(rig, step, seconds)));
     }
 }
 
 /// Half a period of the thesis's torque: contact 2 slips, the disk slides, stops and shivers.
 fn slide(step: f64) -> Motion {
-    let bench = bench(1e6, false);
-    let [x, y] = equilibrium(&bench, &[SupportMotion::REST; 2]).expect("rests");
+    let rig = rig(1e6, false);
+    let [x, y] = equilibrium(&rig, &[SupportMotion::REST; 2]).expect("rests");
     let torque = HarmonicTorque {
         amplitude: 0.15,
         angular_frequency: 1.0,
     };
-    let mut disk = ThreeDisk::new(Setup::new(bench, step), torque, 0.0, [x, y, 0.0], [0.0; 3]);
+    let mut disk = DiskOnTwoSupports::new(Setup::new(rig, step), torque, 0.0, [x, y, 0.0], [0.0; 3]);
     disk.advance(4.0, false).expect("runs");
     motion(&disk)
 }
 
 fn under_a_slow_torque() {
-    let largest = TimeStepLimits::of(&bench(1e6, false), None).largest;
+    let largest = TimeStepLimits::of(&rig(1e6, false), None).largest;
     let exact = slide(0.125 * largest);
     println!("slide and stop under 0.15 sin(t) N.m, 4 s: step, CPU ms per simulated s, error of the angle, of all");
     for radians in [1.5, 1.0, 0.5, 0.25] {
@@ -184,22 +187,19 @@ fn under_a_slow_torque() {
     }
 }
 
-fn scene<S: Scene>(seconds: f64) {
-    let choice = Choice { disks: 1 };
-    let mut values = Values::new(Arc::new(Table::new(S::variables(choice))));
-    values.set_by_name("tilt", Value::Real(TILT)).expect("a legal tilt");
+fn scene<M: Model>(seconds: f64) {
     let mut runs: Vec<f64> = (0..5)
         .map(|_| {
-            let mut scene = S::new(choice, 0.0, &values).expect("a legal scene");
+            let mut disk = Simulation::<M>::new(&[], &[("tilt", TILT.into())]).expect("a legal scene");
             let start = ProcessTime::now();
-            scene.advance_to(seconds, &values).expect("runs");
+            disk.advance_to(seconds).expect("runs");
             start.elapsed().as_secs_f64()
         })
         .collect();
     runs.sort_by(f64::total_cmp);
     println!(
         "  {:16} {:7.1} simulated s per CPU s",
-        S::card().drive,
+        M::info().variant_of("drive").expect("a drive"),
         seconds / runs[2]
     );
 }
@@ -209,8 +209,8 @@ fn main() {
     against_general_molecular_dynamics(1e6);
     under_a_slow_torque();
     println!("scene with the thesis's parameters, tilt {TILT} rad:");
-    scene::<ThreeDiskOnInput>(5.0);
-    scene::<ThreeDiskOnHarmonicTorque>(5.0);
-    scene::<ThreeDiskOnRandomSupports>(2.0);
-    scene::<ThreeDiskOnSine>(2.0);
+    scene::<DiskOnTwoSupportsOnInput>(5.0);
+    scene::<DiskOnTwoSupportsOnHarmonicTorque>(5.0);
+    scene::<DiskOnTwoSupportsOnRandomSupports>(2.0);
+    scene::<DiskOnTwoSupportsOnSine>(2.0);
 }

@@ -7,14 +7,13 @@
 use cpu_time::ProcessTime;
 use std::f64::consts::TAU;
 use std::hint::black_box;
-use std::sync::Arc;
 
 use jostle::collision::{CollisionLaw, Dashpot, TabulatedDashpot, VelocityFloor};
 use jostle::contact::LinearDashpot;
-use jostle::drive::{RandomPhase, Sine};
-use jostle::engine::wedge::{DiskInWedge, Frame, Moving, Resting, Setup, WallMotion};
+use jostle::drive::{AtRandomPhase, BaseMotion, RandomPhase, Sine};
+use jostle::engine::wedge::{DiskInWedge, Start, WedgeFrame, WedgeSetup};
 use jostle::scene::wedge::{WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnSine};
-use jostle::scene::{Choice, Scene, Table, Value, Values};
+use jostle::scene::{Model, Simulation};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
@@ -44,14 +43,19 @@ fn law(restitution: f64) -> TabulatedDashpot {
     TabulatedDashpot::new(law, &[1.0], 0.5)
 }
 
-fn bounces<L: CollisionLaw, B: WallMotion>(name: &str, law: L, walls: B) {
-    let setup = Setup {
-        frame: Frame::new(TAU / 3.0, 0.1745),
+fn bounces<L: CollisionLaw, B: BaseMotion>(name: &str, law: L, walls: B) {
+    let setup = WedgeSetup {
+        frame: WedgeFrame::new(TAU / 3.0, 0.1745),
         radius: 0.02,
         gravity: 9.81,
         slow: 0.0,
     };
-    let mut disk = DiskInWedge::new(setup, law, walls, 0.0, 1e-3, 0.02);
+    let start = Start {
+        time: 0.0,
+        height: 1e-3,
+        sideways: 0.02,
+    };
+    let mut disk = DiskInWedge::new(setup, law, walls, start);
     let count = 200_000;
     let seconds = median(|| (0..count).for_each(|_| disk.next_impact().expect("bounces")));
     println!(
@@ -61,43 +65,38 @@ fn bounces<L: CollisionLaw, B: WallMotion>(name: &str, law: L, walls: B) {
     );
 }
 
-fn scene<S: Scene>(seconds: f64) {
-    let choice = Choice { disks: 1 };
-    let mut values = Values::new(Arc::new(Table::new(S::variables(choice))));
-    values
-        .set_by_name("wedge.tilt", Value::Real(0.1745))
-        .expect("a legal tilt");
+fn scene<M: Model>(seconds: f64) {
     let built = ProcessTime::now();
-    let mut scene = S::new(choice, 0.0, &values).expect("a legal wedge");
+    let mut wedge = Simulation::<M>::new(&[], &[("wedge.tilt", 0.1745.into())]).expect("a legal wedge");
     let built = built.elapsed().as_secs_f64();
     let mut time = 0.0;
     let run = median(|| {
         time += seconds;
-        scene.advance_to(time, &values).expect("runs");
+        wedge.advance_to(time).expect("runs");
     });
     // Steps so short that hardly any of them has an event.
-    let (mut seen, calls) = (values.clone(), 10_000_u32);
+    let calls = 10_000_u32;
     let step = median(|| {
         for _ in 0..calls {
             time += 1e-9;
-            scene.advance_to(time, &values).expect("runs");
-            scene.write_outputs(seen.writer());
+            wedge.advance_to(time).expect("runs");
+            black_box(wedge.all_values().expect("started"));
         }
     });
     let advance = median(|| {
         for _ in 0..calls {
             time += 1e-9;
-            scene.advance_to(time, &values).expect("runs");
+            wedge.advance_to(time).expect("runs");
         }
     });
-    let mut saved = scene.state();
-    let save = median(|| (0..calls).for_each(|_| saved = black_box(scene.state())));
-    let restore = median(|| (0..calls).for_each(|_| scene.restore(&saved).expect("restores")));
+    let mut saved = wedge.save();
+    let save = median(|| (0..calls).for_each(|_| saved = black_box(wedge.save())));
+    let restore = median(|| (0..calls).for_each(|_| wedge.restore(&saved).expect("restores")));
     let each = |seconds: f64| seconds / f64::from(calls) * 1e9;
     println!(
         "{:20} {:10.0} simulated seconds per second; step without event {:.0} ns, with all outputs {:.0} ns; saved {:.0} \
          ns, restored {:.0} ns; built in {:.1} ms",
-        S::card().engine,
+        M::info().variant_of("engine").unwrap_or_default(),
         seconds / run,
         each(advance),
         each(step),
@@ -109,7 +108,7 @@ fn scene<S: Scene>(seconds: f64) {
 
 fn main() {
     for restitution in [0.9, 0.5] {
-        let walls = Resting {
+        let walls = AtRandomPhase {
             phase: RandomPhase {
                 peak_velocity: BASE.amplitude * BASE.frequency * TAU,
             },
@@ -117,7 +116,7 @@ fn main() {
         };
         bounces(&format!("map, e_n {restitution}"), law(restitution), walls);
         let floored = VelocityFloor::new(law(restitution), 1e-4).expect("a legal floor");
-        bounces(&format!("moving wedge, e_n {restitution}"), floored, Moving(BASE));
+        bounces(&format!("moving wedge, e_n {restitution}"), floored, BASE);
     }
     scene::<WedgeMap>(1000.0);
     scene::<WedgeEventDrivenOnSine>(1000.0);

@@ -1,4 +1,4 @@
-//! The packing of the README on a shaken base, as a Rust program.
+//! A packing on a shaken base, as a Rust program.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ const STEP: f64 = 1.0 / 512.0;
 const STEPS: u32 = 1024;
 
 fn main() -> jostle::Result<()> {
-    let mut packing = Simulation::<PackingOnInput>::new(60, &[("seed", 1.into())])?;
+    let mut packing = Simulation::<PackingOnInput>::new(&[("disks", 60)], &[("seed", 1.into())])?;
     let mut force = 0.0;
     for n in 0..STEPS {
         let time = f64::from(n) * STEP;

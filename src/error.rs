@@ -1,110 +1,35 @@
-//! What can go wrong, said so that the reader can mend it: the thing, its value, what is allowed, the remedy.
+//! What a law or a shape refuses: a parameter, its value, what is allowed, the remedy.
+//!
+//! Scenes turn it into an error of the component ([`fmi_component::Error`], which is [`crate::Error`]).
 
 use thiserror::Error;
 
-/// Every refusal of the library. Nothing is silently repaired.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Error {
-    /// A parameter outside what the scene can do; known before anything runs.
-    #[error("{name} = {value} is not allowed: {allowed}. {remedy}")]
-    Parameter {
-        /// The variable's name as in the model description, such as `box.width`.
-        name: String,
-        /// The value that was given, as text.
-        value: String,
-        /// What is allowed, with numbers.
-        allowed: String,
-        /// What to do about it.
-        remedy: String,
-    },
-    /// A step that cannot be done. The state is the one before the step, so that the caller may retry.
-    #[error("{scene}: step refused at t = {time} s: {what}. {remedy}")]
-    Step {
-        /// The scene's name.
-        scene: &'static str,
-        /// Simulated time at which the trouble showed \[s\].
-        time: f64,
-        /// What happened, with numbers.
-        what: String,
-        /// What to do about it.
-        remedy: String,
-    },
-    /// Saved state that is not ours, is damaged, or belongs to other parameters.
-    #[error("state refused: {what}. {remedy}")]
-    State {
-        /// What is wrong with it.
-        what: String,
-        /// What to do about it.
-        remedy: String,
-    },
-    /// A file that cannot be read or written.
-    #[error("{path}: {what}. {remedy}")]
-    File {
-        /// The file.
-        path: String,
-        /// What went wrong.
-        what: String,
-        /// What to do about it.
-        remedy: String,
-    },
-    /// A call that the boundary cannot accept: out of order, wrong length, unknown variable, unsupported function.
-    /// Nothing has changed.
-    #[error("{what}. {remedy}")]
-    Call {
-        /// What was asked, in which phase, and why it is refused.
-        what: String,
-        /// What to do about it.
-        remedy: String,
-    },
+/// A parameter that physics cannot work with.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{name} = {value} is not allowed: {allowed}. {remedy}")]
+pub struct Error {
+    /// The variable's name as in the model description, such as `box.width`.
+    pub name: String,
+    /// The value that was given, as text.
+    pub value: String,
+    /// What is allowed, with numbers.
+    pub allowed: String,
+    /// What to do about it.
+    pub remedy: String,
 }
 
 impl Error {
-    /// Builds [`Error::Parameter`].
+    /// The refusal of a parameter.
     pub fn parameter(
         name: impl Into<String>,
         value: impl ToString,
         allowed: impl Into<String>,
         remedy: impl Into<String>,
     ) -> Self {
-        Self::Parameter {
+        Self {
             name: name.into(),
             value: value.to_string(),
             allowed: allowed.into(),
-            remedy: remedy.into(),
-        }
-    }
-
-    /// Builds [`Error::File`].
-    pub fn file(path: &std::path::Path, what: impl ToString, remedy: impl Into<String>) -> Self {
-        Self::File {
-            path: path.display().to_string(),
-            what: what.to_string(),
-            remedy: remedy.into(),
-        }
-    }
-
-    /// Builds [`Error::Call`].
-    pub fn call(what: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::Call {
-            what: what.into(),
-            remedy: remedy.into(),
-        }
-    }
-
-    /// Builds the [`Error::Step`] of a call that asks for more than a call may.
-    pub fn too_much_work(scene: &'static str, time: f64, asked: impl Into<String>) -> Self {
-        Self::Step {
-            scene,
-            time,
-            what: format!("the step asks for {}, more than one call may do", asked.into()),
-            remedy: "Take shorter communication steps.".into(),
-        }
-    }
-
-    /// Builds [`Error::State`].
-    pub fn state(what: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::State {
-            what: what.into(),
             remedy: remedy.into(),
         }
     }
@@ -115,5 +40,5 @@ pub(crate) fn are_sane(numbers: impl IntoIterator<Item = f64>) -> bool {
     numbers.into_iter().all(|number| number.abs() < 1e100)
 }
 
-/// Result of anything that can be refused.
+/// Result of anything that can refuse a parameter.
 pub type Result<T> = std::result::Result<T, Error>;

@@ -8,11 +8,14 @@ pub mod contact;
 pub mod drive;
 pub mod engine;
 pub mod error;
-pub mod fmi;
 pub mod geometry;
 pub mod measure;
 pub mod packing;
-pub mod saved_bytes;
 pub mod scene;
 
-pub use error::{Error, Result};
+pub use fmi_component::{Error, Result};
+
+/// The programs of the guide run with the tests of the documentation.
+#[cfg(all(doctest, feature = "toml"))]
+#[doc = include_str!("../docs/rust.md")]
+pub struct GuideForRust;

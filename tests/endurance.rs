@@ -9,12 +9,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::ptr::{null, null_mut};
 
-use jostle::fmi::abi::common::{Opaque, Status};
-use jostle::fmi::abi::logger::Fmi3Log;
-use jostle::fmi::token;
+use fmi_component::c_api::{Fmi3Log, Opaque, Status};
+use fmi_component::{ModelType, StructuralParameters, token};
 use jostle::scene::packing::event_driven::HardPackingOnSine;
-use jostle::scene::{AnySimulation, Choice, Scene, Selection};
+use jostle::scene::{AnySimulation, Selection};
 use libloading::Library;
+use oscillators::Oscillators;
 
 /// Resident memory of this process \[KiB\].
 fn resident() -> u64 {
@@ -100,9 +100,10 @@ impl Fmu {
     }
 }
 
-fn token_of<S: Scene>(disks: u32) -> CString {
-    let choice = Choice { disks };
-    CString::new(token::write(&S::card(), choice, &S::variables(choice))).unwrap()
+fn token_of(model: &ModelType, chosen: &[(&str, u32)]) -> CString {
+    let info = (model.info)();
+    let structure = StructuralParameters::choose(&info, chosen).unwrap();
+    CString::new(token::write(&info, &structure, &(model.variables)(&structure), false)).unwrap()
 }
 
 /// Loads and unloads 2000 times, with `life` in between, and looks at memory.
@@ -122,15 +123,17 @@ fn load_two_thousand_times(path: &Path, life: impl Fn(&Fmu, u32)) {
     assert!(!still, "the library is not unloaded");
 }
 
-/// The probe, every hundredth time into a panic.
+/// Oscillators, every hundredth time into a panic.
 #[test]
 fn two_thousand_loads_leave_memory_as_it_was() {
     // The loaded library tells its panics; looking up where they come from would keep memory.
     unsafe { std::env::set_var("RUST_BACKTRACE", "0") };
-    let path = std::env::current_exe().unwrap().with_file_name("libfmu_probe.so");
-    let token = token_of::<fmu_probe::Probe>(3);
-    let rows = fmu_probe::Probe::variables(Choice { disks: 3 });
-    let panic_time = 1 + rows.iter().position(|row| row.name == "fault.panic_time").unwrap() as u32;
+    let path = std::env::current_exe().unwrap().with_file_name("liboscillators.so");
+    let model = ModelType::of::<Oscillators>();
+    let token = token_of(&model, &[]);
+    let variables = (model.variables)(&StructuralParameters::defaults(&(model.info)()));
+    let is_panic_time = |variable: &fmi_component::Variable| variable.name == "fault.panic_time";
+    let panic_time = 1 + variables.iter().position(is_panic_time).unwrap() as u32;
     load_two_thousand_times(&path, |fmu, cycle| {
         let panics = cycle % 100 == 99;
         let given = [(panic_time, 0.015)];
@@ -160,7 +163,7 @@ fn packing() -> (PathBuf, CString) {
         .status();
     assert!(build.unwrap().success());
     let path = folder.join("release/libjostle_packing_event_driven_sine.so");
-    (path, token_of::<HardPackingOnSine>(10))
+    (path, token_of(&ModelType::of::<HardPackingOnSine>(), &[("disks", 10)]))
 }
 
 #[test]

@@ -56,13 +56,13 @@ impl<D: FirstHit> Case<D> {
     /// No gap before the hit may be negative; at the hit it is zero and falling. Returns the hit.
     fn check(&self, scale: f64, rate_scale: f64, horizon: f64, scans: u32) -> f64 {
         let hit = self.first_hit();
-        let told = || {
+        let description = || {
             format!(
                 "{:?} n_y {} start {} hit {hit}",
                 self.flight, self.normal_up, self.start
             )
         };
-        assert!(hit >= 0.0, "{}", told());
+        assert!(hit >= 0.0, "{}", description());
         let until = hit.min(horizon);
         let grazing = (self.grazes_after < until).then_some(self.grazes_after);
         let scanned = (1..scans).map(|i| until * f64::from(i) / f64::from(scans));
@@ -70,14 +70,14 @@ impl<D: FirstHit> Case<D> {
             assert!(
                 self.gap(delay).0 > -1e-12 * scale,
                 "passed a root at {delay}: {}",
-                told()
+                description()
             );
         }
         if hit < f64::INFINITY && hit > 0.0 {
             let (gap, rate) = self.gap(hit);
             // Where the gap comes in at a grazing angle its root is only as sharp as its rate.
-            assert!(gap.abs() < 1e-12 * scale, "gap {gap}: {}", told());
-            assert!(rate < 1e-6 * rate_scale, "rate {rate}: {}", told());
+            assert!(gap.abs() < 1e-12 * scale, "gap {gap}: {}", description());
+            assert!(rate < 1e-6 * rate_scale, "rate {rate}: {}", description());
         }
         hit
     }
@@ -173,7 +173,7 @@ fn cubic_case(random: &mut Uniform) -> (Case<FollowsInput>, f64) {
     let start = random.between(0.0, 10.0);
     let speed = random.logarithmic(1e-3, 1.0);
     let mut base = FollowsInput::uniform(start, random.between(-1e-3, 1e-3), random.between(-1.0, 1.0) * speed);
-    base.aim(
+    base.set_target(
         start,
         step,
         random.between(-1.0, 1.0) * speed * step,
@@ -271,7 +271,7 @@ fn chatter_keeps_its_digits() {
 fn delays_are_delays() {
     let sizes = [0.0, 1e-30, 1e-17, 1e-3, 1.0, 1e6].map(|size| [size, -size]).concat();
     let mut input = FollowsInput::uniform(0.0, 0.0, 0.0);
-    input.aim(0.0, 1e-3, 1e-5, 0.02);
+    input.set_target(0.0, 1e-3, 1e-5, 0.02);
     for amplitude in [1e-30, 1e-9, 1e-3, 1.0] {
         let sine = Sine {
             amplitude,

@@ -5,33 +5,28 @@ mod support;
 
 use jostle::drive::Sine;
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
-use jostle::scene::{Choice, Scene, Value, Values};
-use support::{outputs_of, values_of};
+use jostle::scene::{Model, Simulation};
+use support::simulation_of;
 
-const SIXTY: Choice = Choice { disks: 60 };
 const MODELS: [(&str, i64); 2] = [("random phase", 1), ("moving", 2)];
 
-fn values(gamma: f64, model: i64) -> Values {
+fn shaken(gamma: f64, model: i64) -> Simulation<HardPackingOnSine> {
     let amplitude = ("drive.amplitude", Sine::amplitude_of(gamma, 80.0, 9.8));
-    let mut values = values_of::<HardPackingOnSine>(SIXTY, &[amplitude]);
-    values.set_by_name("base.model", Value::Integer(model)).unwrap();
-    values
+    simulation_of(60, &[amplitude, ("base.model", model as f64)])
 }
 
 /// Work of the base less losses is the change of energy to rounding, and the reported forces add up to the weight.
 #[test]
 fn energy_and_momentum_balance_to_rounding() {
     for (name, model) in MODELS {
-        let values = values(6.0, model);
-        let mut packing = HardPackingOnSine::new(SIXTY, 0.0, &values).unwrap();
+        let mut packing = shaken(6.0, model);
         let (steps, step) = (4000, 1e-3);
         let mut impulse = 0.0;
         for i in 1..=steps {
-            packing.advance_to(f64::from(i) * step, &values).unwrap();
-            impulse += outputs_of(&packing, &values).real("base.reaction_force") * step;
+            packing.advance_to(f64::from(i) * step).unwrap();
+            impulse += packing.real("base.reaction_force").unwrap() * step;
         }
-        let outputs = outputs_of(&packing, &values);
-        let (input, residual) = (outputs.real("energy.input"), outputs.real("energy.residual"));
+        let [input, residual] = ["energy.input", "energy.residual"].map(|name| packing.real(name).unwrap());
         println!(
             "{name}: energy residual {:.1e} of the work of the base",
             residual / input
@@ -52,15 +47,13 @@ fn energy_and_momentum_balance_to_rounding() {
 #[test]
 fn split_steps_give_the_same_bits() {
     for (_, model) in MODELS {
-        let values = values(5.0, model);
         let states = [vec![0.5], vec![0.25, 0.5], vec![1e-9, 0.1, 0.100_000_1, 0.3, 0.5]].map(|ends| {
-            let mut packing = HardPackingOnSine::new(SIXTY, 0.0, &values).unwrap();
-            ends.iter().for_each(|end| packing.advance_to(*end, &values).unwrap());
-            let outputs = outputs_of(&packing, &values);
+            let mut packing = shaken(5.0, model);
+            ends.iter().for_each(|end| packing.advance_to(*end).unwrap());
             let angles: Vec<f64> = (1..=60)
-                .map(|disk| outputs.real(&format!("disk.angle[{disk}]")))
+                .map(|disk| packing.real(&format!("disk.angle[{disk}]")).unwrap())
                 .collect();
-            (packing.state().engine, angles)
+            (packing.model().unwrap().state().engine, angles)
         });
         assert!(states[0] == states[1] && states[0] == states[2]);
     }
@@ -70,54 +63,50 @@ fn split_steps_give_the_same_bits() {
 #[test]
 fn rollback_gives_the_same_bits() {
     for (_, model) in MODELS {
-        let values = values(5.0, model);
-        let mut packing = HardPackingOnSine::new(SIXTY, 0.0, &values).unwrap();
-        packing.advance_to(0.3, &values).unwrap();
-        let saved = packing.state();
-        packing.advance_to(0.7, &values).unwrap();
-        let ahead = (packing.state(), outputs_of(&packing, &values));
-        let mut other = HardPackingOnSine::new(SIXTY, 0.0, &values).unwrap();
+        let mut packing = shaken(5.0, model);
+        packing.advance_to(0.3).unwrap();
+        let saved = packing.save();
+        packing.advance_to(0.7).unwrap();
+        let ahead = (packing.save(), packing.all_values());
+        let mut other = shaken(5.0, model);
         for again in [&mut packing, &mut other] {
             again.restore(&saved).unwrap();
-            again.advance_to(0.7, &values).unwrap();
-            assert!((again.state(), outputs_of(again, &values)) == ahead);
+            again.advance_to(0.7).unwrap();
+            assert!((again.save(), again.all_values()) == ahead);
         }
-        let foreign = HardPackingOnSine::new(SIXTY, 0.0, &self::values(5.0, 3 - model))
-            .unwrap()
-            .state();
-        assert!(packing.restore(&foreign).is_err());
+        let foreign = shaken(5.0, 3 - model).model().unwrap().state();
+        let mut same = HardPackingOnSine::new(packing.structure(), 0.0, packing.values()).unwrap();
+        assert!(same.restore(&foreign).is_err());
     }
 }
 
 /// A base that follows sampled inputs does what the sine does that they sample, up to the error of the cubic.
 #[test]
 fn sampled_inputs_follow_the_sine() {
-    let reference = values(4.0, 2);
-    let mut on_sine = HardPackingOnSine::new(SIXTY, 0.0, &reference).unwrap();
+    let mut on_sine = shaken(4.0, 2);
     let omega = std::f64::consts::TAU * 80.0;
     let amplitude = Sine::amplitude_of(4.0, 80.0, 9.8);
-    let mut inputs = values_of::<HardPackingOnInput>(SIXTY, &[("base.velocity", amplitude * omega)]);
-    let mut on_input = HardPackingOnInput::new(SIXTY, 0.0, &inputs).unwrap();
+    let mut on_input = simulation_of::<HardPackingOnInput>(60, &[("base.velocity", amplitude * omega)]);
     let step = 1.0 / (80.0 * 200.0);
     for i in 0..480 {
         // The inputs that land the base where the sine will be.
         let end = f64::from(i + 1) * step;
         let velocity = amplitude * omega * (omega * end).cos();
         let displacement = amplitude * (omega * end).sin() - step * velocity;
-        inputs
-            .set_by_name("base.displacement", Value::Real(displacement))
-            .unwrap();
-        inputs.set_by_name("base.velocity", Value::Real(velocity)).unwrap();
-        on_input.advance_to(end, &inputs).unwrap();
-        on_sine.advance_to(end, &reference).unwrap();
+        on_input.set("base.displacement", displacement).unwrap();
+        on_input.set("base.velocity", velocity).unwrap();
+        on_input.advance_to(end).unwrap();
+        on_sine.advance_to(end).unwrap();
     }
-    let (a, b) = (outputs_of(&on_sine, &reference), outputs_of(&on_input, &inputs));
-    assert!((a.real("base.position") - b.real("base.position")).abs() < 1e-9 * amplitude.max(1.0));
+    let both = |name: &str| [on_sine.real(name).unwrap(), on_input.real(name).unwrap()];
+    let [a, b] = both("base.position");
+    assert!((a - b).abs() < 1e-9 * amplitude.max(1.0));
     for disk in 1..=60 {
         let name = format!("disk.y[{disk}]");
-        assert!((a.real(&name) - b.real(&name)).abs() < 2e-3, "{name}");
+        let [a, b] = both(&name);
+        assert!((a - b).abs() < 2e-3, "{name}");
     }
-    let (work, same) = (a.real("energy.input"), b.real("energy.input"));
+    let [work, same] = both("energy.input");
     assert!((work - same).abs() < 0.2 * work, "{work} J and {same} J");
 }
 
@@ -129,14 +118,13 @@ fn collapse_is_refused_and_keeps_the_state() {
         ("collision.contact_time", 0.0),
         ("drive.amplitude", 0.0),
     ];
-    let values = values_of::<HardPackingOnSine>(SIXTY, &changes);
-    let mut packing = HardPackingOnSine::new(SIXTY, 0.0, &values).unwrap();
+    let mut packing = simulation_of::<HardPackingOnSine>(60, &changes);
     let mut time = 0.0;
     let refusal = loop {
-        let before = packing.state();
+        let before = packing.save();
         time += 0.01;
-        if let Err(refusal) = packing.advance_to(time, &values) {
-            assert!(packing.state() == before);
+        if let Err(refusal) = packing.advance_to(time) {
+            assert!(packing.save() == before);
             break refusal.to_string();
         }
         assert!(time < 5.0, "no collapse");

@@ -8,8 +8,8 @@
 use std::f64::consts::TAU;
 
 use jostle::Error;
-use jostle::scene::catalogue::cards;
-use jostle::scene::{AnySimulation, Card, Selection, Value};
+use jostle::scene::catalogue::{Names, names};
+use jostle::scene::{AnySimulation, Selection, Value};
 
 const TABLE: &str = include_str!("../docs/abuse.md");
 const CASES: [&str; 4] = [
@@ -26,12 +26,12 @@ const FREQUENCY: f64 = 80.0;
 const STEP: f64 = 1e-3;
 
 /// The scene, driven `factor` times as hard as usual where a parameter says how hard.
-fn simulation(card: &Card, factor: f64) -> Result<AnySimulation, Error> {
+fn simulation(names: &Names, factor: f64) -> Result<AnySimulation, Error> {
     let selection = Selection {
-        scene: card.scene,
-        engine: Some(card.engine),
-        drive: Some(card.drive),
-        disks: Some(20.min(*card.disks.end())),
+        scene: names.scene,
+        engine: Some(names.engine),
+        drive: Some(names.drive),
+        disks: ["packing", "ratchet"].contains(&names.scene).then_some(20),
     };
     let usual = AnySimulation::new(selection, &[])?;
     let amplitudes = ["drive.amplitude", "torque.amplitude", "support.amplitude"];
@@ -82,8 +82,8 @@ fn walk(simulation: &mut AnySimulation, steps: u32, factor: f64) -> Result<(), E
 
 /// Part of its energies that an engine may lose or find: hard disks are exact from impact to impact, soft ones of first or
 /// fourth order in the time step, and the disk on two supports has its dissipation in closed form.
-fn allowed_residual(card: &Card) -> f64 {
-    match (card.scene, card.engine) {
+fn allowed_residual(names: &Names) -> f64 {
+    match (names.scene, names.engine) {
         ("three_disk", _) => 1e-9,
         (_, "molecular-dynamics") => 1e-4,
         (_, "molecular-dynamics-located") => 1e-5,
@@ -92,9 +92,8 @@ fn allowed_residual(card: &Card) -> f64 {
 }
 
 /// What an answer must be.
-fn check(simulation: &AnySimulation, card: &Card, what: &str) {
-    let values = simulation.values();
-    for (row, value) in values.table().rows().iter().zip(values.as_slice()) {
+fn check(simulation: &AnySimulation, names: &Names, what: &str) {
+    for (row, value) in simulation.variables().iter().zip(simulation.all_values().unwrap()) {
         assert!(
             !matches!(value, Value::Real(real) if !real.is_finite()),
             "{what}: {} = {value:?}",
@@ -102,10 +101,10 @@ fn check(simulation: &AnySimulation, card: &Card, what: &str) {
         );
     }
     if let Ok(residual) = simulation.real("energy.residual") {
-        let names = ["energy.kinetic", "energy.potential", "energy.input", "energy.lost"];
-        let scale: f64 = names.iter().map(|name| simulation.real(name).unwrap().abs()).sum();
+        let energies = ["energy.kinetic", "energy.potential", "energy.input", "energy.lost"];
+        let scale: f64 = energies.iter().map(|name| simulation.real(name).unwrap().abs()).sum();
         assert!(
-            residual.abs() <= allowed_residual(card) * scale,
+            residual.abs() <= allowed_residual(names) * scale,
             "{what}: {residual:e} beside {scale:e}"
         );
     }
@@ -114,7 +113,7 @@ fn check(simulation: &AnySimulation, card: &Card, what: &str) {
     {
         assert!(y > base + 0.4 * radius, "{what}: the disk at {y}, the base at {base}");
     }
-    if card.scene == "three_disk" {
+    if names.scene == "three_disk" {
         check_supports(simulation, what);
     }
 }
@@ -135,10 +134,10 @@ fn check_supports(simulation: &AnySimulation, what: &str) {
 }
 
 /// One hostile step, or more of a hostile motion, after 0.1 s of a usual one.
-fn answer(card: &Card, case: &str) -> &'static str {
-    let what = format!("{} {} {}, {case}", card.scene, card.engine, card.drive);
-    let times_1000 = card.drive != "input" && case == "amplitude times 1000";
-    let mut simulation = match simulation(card, if times_1000 { 1000.0 } else { 1.0 }) {
+fn answer(names: &Names, case: &str) -> &'static str {
+    let what = format!("{} {} {}, {case}", names.scene, names.engine, names.drive);
+    let times_1000 = names.drive != "input" && case == "amplitude times 1000";
+    let mut simulation = match simulation(names, if times_1000 { 1000.0 } else { 1.0 }) {
         Ok(simulation) => simulation,
         Err(error) => {
             assert!(error.to_string().contains(".amplitude"), "{what}: {error}");
@@ -162,14 +161,14 @@ fn answer(card: &Card, case: &str) -> &'static str {
             }
             assert_eq!(simulation.to_bytes().unwrap(), sane, "{what}");
             walk(&mut simulation, 10, 1.0).unwrap();
-            check(&simulation, card, &what);
+            check(&simulation, names, &what);
             return "input refused";
         }
         "amplitude times 1000" => walk(&mut simulation, 100, 1000.0),
         _ => step(&mut simulation, 1000.0 * STEP),
     };
     if outcome.is_ok() {
-        check(&simulation, card, &what);
+        check(&simulation, names, &what);
         return "answered";
     }
     // The caller may retry with a sane motion, if it may change the motion at all.
@@ -182,36 +181,36 @@ fn answer(card: &Card, case: &str) -> &'static str {
 /// What asks for too much is refused at the same place on every machine, and shorter steps do it.
 #[test]
 fn the_work_of_a_step_is_bounded() {
-    for card in cards() {
-        let mut limited = simulation(&card, 1.0).unwrap();
-        let mut free = simulation(&card, 1.0).unwrap();
+    for names in names() {
+        let mut limited = simulation(&names, 1.0).unwrap();
+        let mut free = simulation(&names, 1.0).unwrap();
         limited.limit_work(20);
         let before = limited.to_bytes().unwrap();
         let refusal = limited.advance_to(1.0).unwrap_err().to_string();
         assert!(
             refusal.contains("more than one call may do. Take shorter communication steps."),
-            "{card:?}: {refusal}"
+            "{names:?}: {refusal}"
         );
         assert!(
             limited.to_bytes().unwrap() == before,
-            "{card:?}: the refusal left a trace"
+            "{names:?}: the refusal left a trace"
         );
         limited.limit_work(1_000_000);
         limited.advance_to(0.02).unwrap();
         free.advance_to(0.02).unwrap();
-        assert!(limited.to_bytes().unwrap() == free.to_bytes().unwrap(), "{card:?}");
+        assert!(limited.to_bytes().unwrap() == free.to_bytes().unwrap(), "{names:?}");
     }
 }
 
 #[test]
 fn every_case_is_answered_as_documented() {
     let mut rows = Vec::new();
-    for card in cards() {
-        let mut cells = vec![format!("{}, {}, {}", card.scene, card.engine, card.drive)];
+    for names in names() {
+        let mut cells = vec![format!("{}, {}, {}", names.scene, names.engine, names.drive)];
         for case in CASES {
-            let has_case = card.drive == "input" || case.contains("times");
+            let has_case = names.drive == "input" || case.contains("times");
             cells.push(if has_case {
-                answer(&card, case).into()
+                answer(&names, case).into()
             } else {
                 "-".into()
             });

@@ -1,4 +1,4 @@
-//! The model descriptions under `modelDescription/` are what the scenes generate.
+//! The model descriptions under `modelDescription/` are what the scenes generate, with three disks where a scene may have them.
 //!
 //! Regression test: it shows each change of an interface in the diff. To accept one:
 //! `UPDATE_MODEL_DESCRIPTIONS=1 cargo test --test model_description`, and a line in the change log.
@@ -7,103 +7,57 @@
 
 use std::path::Path;
 
-use jostle::fmi::Version;
-use jostle::fmi::bundle::Component;
-use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
-use jostle::scene::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
-use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
-use jostle::scene::three_disk::{
-    ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
-};
-use jostle::scene::wedge::{
-    WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
-    WedgeMolecularDynamicsOnSine,
-};
-use jostle::scene::{Choice, Scene};
+use fmi_bundle::{Version, model_description};
+use jostle::scene::catalogue::MODELS;
 
-fn committed<S: Scene>() {
-    let component = Component::of::<S>(Choice {
-        disks: S::card().default_disks,
-    })
-    .unwrap();
-    for (version, suffix) in [(Version::Two, "fmi2"), (Version::Three, "fmi3")] {
-        let name = format!("{}.{suffix}.xml", component.card.identifier);
-        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("modelDescription")
-            .join(&name);
-        let generated = component.model_description(version);
-        if std::env::var_os("UPDATE_MODEL_DESCRIPTIONS").is_some() {
-            std::fs::write(&path, &generated).unwrap();
+#[path = "support/fmus.rs"]
+mod fmus;
+
+#[test]
+fn committed_model_descriptions_are_those_that_the_scenes_generate() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription");
+    let mut expected = Vec::new();
+    for model in MODELS {
+        let component = fmus::component(model, 3);
+        for (version, suffix) in [(Version::Two, "fmi2"), (Version::Three, "fmi3")] {
+            let name = format!("{}.{suffix}.xml", component.info().identifier);
+            let generated = model_description::write(&component, version);
+            if std::env::var_os("UPDATE_MODEL_DESCRIPTIONS").is_some() {
+                std::fs::write(folder.join(&name), &generated).unwrap();
+            }
+            let kept = std::fs::read_to_string(folder.join(&name)).unwrap_or_default();
+            assert!(
+                kept == generated,
+                "modelDescription/{name} is not what the scene generates; see the head of this test"
+            );
+            expected.push(name);
         }
-        let same = std::fs::read_to_string(&path).is_ok_and(|kept| kept == generated);
-        assert!(
-            same,
-            "modelDescription/{name} is not what the scene generates; see the head of this test"
-        );
+    }
+    for file in std::fs::read_dir(&folder).unwrap() {
+        let name = file.unwrap().file_name().into_string().unwrap();
+        assert!(expected.contains(&name), "modelDescription/{name} belongs to no scene");
     }
 }
 
+/// Every name that a file of an FMU mentions is a variable of that FMU, with arrays too.
 #[test]
-fn packing_on_input() {
-    committed::<PackingOnInput>();
-}
-
-#[test]
-fn packing_on_sine() {
-    committed::<PackingOnSine>();
-}
-
-#[test]
-fn located_packing_on_input() {
-    committed::<LocatedPackingOnInput>();
-}
-
-#[test]
-fn located_packing_on_sine() {
-    committed::<LocatedPackingOnSine>();
-}
-
-#[test]
-fn hard_packing_on_input() {
-    committed::<HardPackingOnInput>();
-}
-
-#[test]
-fn hard_packing_on_sine() {
-    committed::<HardPackingOnSine>();
-}
-
-#[test]
-fn wedge_map() {
-    committed::<WedgeMap>();
-}
-
-#[test]
-fn wedge_event_driven() {
-    committed::<WedgeEventDrivenOnSine>();
-    committed::<WedgeEventDrivenOnInput>();
-}
-
-#[test]
-fn wedge_molecular_dynamics() {
-    committed::<WedgeMolecularDynamicsOnSine>();
-    committed::<WedgeMolecularDynamicsOnInput>();
-}
-
-#[test]
-fn ratchet_on_input() {
-    committed::<RatchetOnInput>();
-}
-
-#[test]
-fn ratchet_on_sine() {
-    committed::<RatchetOnSine>();
-}
-
-#[test]
-fn three_disk() {
-    committed::<ThreeDiskOnInput>();
-    committed::<ThreeDiskOnHarmonicTorque>();
-    committed::<ThreeDiskOnRandomSupports>();
-    committed::<ThreeDiskOnSine>();
+fn terminals_name_variables_that_exist() {
+    for model in MODELS {
+        for arrays in [false, true] {
+            let mut component = fmus::component(model, 3);
+            component.arrays = arrays;
+            let description = model_description::write(&component, Version::Three);
+            let Some(terminals) = fmi_bundle::terminals::write(&component) else {
+                continue;
+            };
+            for name in terminals.split("variableName=\"").skip(1) {
+                let name = name.split('"').next().unwrap();
+                assert!(
+                    description.contains(&format!(" name=\"{name}\"")),
+                    "{}, arrays {arrays}: {name}",
+                    component.info().identifier
+                );
+            }
+        }
+    }
 }

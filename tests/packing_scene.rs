@@ -6,18 +6,17 @@ mod support;
 
 use jostle::Error;
 use jostle::drive::{FollowsInput, Sine};
-use jostle::engine::located_dynamics::LocatedDynamics;
-use jostle::engine::molecular_dynamics::{Gear5, MolecularDynamics, VelocityVerlet};
+use jostle::engine::dem::event_located::EventStepper;
+use jostle::engine::dem::verlet::{Gear5, PredictorCorrector, VelocityVerlet};
 use jostle::packing::{RadiusDistribution, advancing_front, mirrored};
-use jostle::scene::packing::soft::SoftEngine;
-use jostle::scene::packing::{Packing, PackingOnInput, PackingOnSine, SoftPacking};
-use jostle::scene::{Choice, Scene, Value};
-use support::{order, outputs_of, values_of};
+use jostle::scene::base_drive::BaseDrive;
+use jostle::scene::packing::soft::SoftMethod;
+use jostle::scene::packing::{PackingOnInput, PackingOnSine, SoftPacking};
+use jostle::scene::{Model, Simulation, Value};
+use support::{order, simulation_of};
 
-type Verlet<D> = MolecularDynamics<VelocityVerlet, D>;
-type Gear<D> = MolecularDynamics<Gear5, D>;
-
-const SIXTY: Choice = Choice { disks: 60 };
+type Verlet = PredictorCorrector<VelocityVerlet>;
+type Gear = PredictorCorrector<Gear5>;
 
 /// Amplitude of the base for Gamma at 80 Hz.
 fn at_gamma(gamma: f64) -> (&'static str, f64) {
@@ -25,19 +24,18 @@ fn at_gamma(gamma: f64) -> (&'static str, f64) {
 }
 
 /// Change of momentum = gravity + impulses of the walls, and the reaction forces reported add up to the base's impulse.
-fn momentum_balance<E: SoftEngine>(name: &str) {
-    let values = values_of::<SoftPacking<E>>(SIXTY, &[at_gamma(8.0)]);
-    let mut packing = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
-    let mass: f64 = packing.engine().setup().masses.iter().sum();
+fn momentum_balance<M: SoftMethod, D: BaseDrive>(name: &str) {
+    let mut packing = simulation_of::<SoftPacking<M, D>>(60, &[at_gamma(8.0)]);
+    let mass: f64 = packing.model().unwrap().engine().setup().masses.iter().sum();
     let (step, count) = (3.3e-4, 3000);
     let mut reported = 0.0;
     for i in 1..=count {
-        packing.advance_to(f64::from(i) * step, &values).unwrap();
-        reported += outputs_of(&packing, &values).real("base.reaction_force") * step;
+        packing.advance_to(f64::from(i) * step).unwrap();
+        reported += packing.real("base.reaction_force").unwrap() * step;
     }
-    let engine = packing.engine();
+    let engine = packing.model().unwrap().engine();
     let momentum = |axis: usize| -> f64 {
-        let parts = engine.look().rates.iter().zip(&engine.setup().masses);
+        let parts = engine.observables().velocities.iter().zip(&engine.setup().masses);
         parts.map(|(rate, mass)| mass * rate[axis]).sum()
     };
     let (px, py) = (momentum(0), momentum(1));
@@ -53,31 +51,29 @@ fn momentum_balance<E: SoftEngine>(name: &str) {
 
 #[test]
 fn momentum_balances_to_rounding() {
-    momentum_balance::<Verlet<Sine>>("velocity Verlet");
-    momentum_balance::<Gear<Sine>>("Gear 5");
-    momentum_balance::<LocatedDynamics<Sine>>("located events");
+    momentum_balance::<Verlet, Sine>("velocity Verlet");
+    momentum_balance::<Gear, Sine>("Gear 5");
+    momentum_balance::<EventStepper, Sine>("located events");
 }
 
 /// Residual of the energy balance of a shaken packing, root mean square over seeds, over the energy put in and out.
-fn energy_residual<E: SoftEngine>(time_step: f64) -> f64 {
+fn energy_residual<M: SoftMethod, D: BaseDrive>(time_step: f64) -> f64 {
     let residuals = (1..=6).map(|seed| {
         let changes = [at_gamma(4.0), ("time_step", time_step), ("seed", f64::from(seed))];
-        let values = values_of::<SoftPacking<E>>(SIXTY, &changes);
-        let mut packing = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
-        packing.advance_to(0.15, &values).unwrap();
-        let outputs = outputs_of(&packing, &values);
-        outputs.real("energy.residual") / outputs.real("energy.lost")
+        let mut packing = simulation_of::<SoftPacking<M, D>>(60, &changes);
+        packing.advance_to(0.15).unwrap();
+        packing.real("energy.residual").unwrap() / packing.real("energy.lost").unwrap()
     });
     (residuals.map(|residual| residual * residual).sum::<f64>() / 6.0).sqrt()
 }
 
 /// Work of the base less losses is the change of energy; what is left over shrinks with the step at the order that
-/// impacts allow, which is the first (see the table of `tests/molecular_dynamics.rs`).
+/// impacts allow, which is the first (see the table of `tests/verlet.rs`).
 #[test]
 fn energy_balances_with_the_step() {
     for (name, residual) in [
-        ("velocity Verlet", energy_residual::<Verlet<Sine>> as fn(f64) -> f64),
-        ("Gear 5", energy_residual::<Gear<Sine>>),
+        ("velocity Verlet", energy_residual::<Verlet, Sine> as fn(f64) -> f64),
+        ("Gear 5", energy_residual::<Gear, Sine>),
     ] {
         let residuals = [1.6e-5, 4e-6, 1e-6].map(residual);
         let order = order(residuals[0], residuals[2], 16.0);
@@ -89,7 +85,7 @@ fn energy_balances_with_the_step() {
 /// With located events the balance closes at the order of the method.
 #[test]
 fn energy_balances_better_with_located_events() {
-    let residuals = [8e-5, 4e-5, 2e-5, 1e-5].map(energy_residual::<LocatedDynamics<Sine>>);
+    let residuals = [8e-5, 4e-5, 2e-5, 1e-5].map(energy_residual::<EventStepper, Sine>);
     let order = order(residuals[0], residuals[3], 8.0);
     println!("located events: energy residual over losses at 80, 40, 20, 10 us {residuals:?}, order {order:.2}");
     assert!(order > 2.5 && residuals[3] < 1e-6, "{residuals:?}");
@@ -98,25 +94,26 @@ fn energy_balances_better_with_located_events() {
 /// A packing and its mirror image turn oppositely, to the last bit, since the box is centred and sums run alike.
 #[test]
 fn mirrored_packings_turn_oppositely() {
-    turn_oppositely::<Verlet<Sine>>();
-    turn_oppositely::<LocatedDynamics<Sine>>();
+    turn_oppositely::<Verlet, Sine>();
+    turn_oppositely::<EventStepper, Sine>();
 }
 
-fn turn_oppositely<E: SoftEngine>() {
-    let values = values_of::<SoftPacking<E>>(SIXTY, &[at_gamma(4.0)]);
+fn turn_oppositely<M: SoftMethod, D: BaseDrive>() {
+    let simulation = simulation_of::<SoftPacking<M, D>>(60, &[at_gamma(4.0)]);
+    let values = simulation.values();
     let radii = RadiusDistribution::default().sample(60, 5).unwrap();
     let disks = advancing_front(&radii, 0.4).unwrap();
-    let mut packing = SoftPacking::<E>::of_disks(&disks, 0.0, &values).unwrap();
-    let mut image = SoftPacking::<E>::of_disks(&mirrored(&disks), 0.0, &values).unwrap();
+    let mut packing = SoftPacking::<M, D>::of_disks(&disks, 0.0, values).unwrap();
+    let mut image = SoftPacking::<M, D>::of_disks(&mirrored(&disks), 0.0, values).unwrap();
     for i in 1..=20 {
-        packing.advance_to(f64::from(i) * 0.05, &values).unwrap();
-        image.advance_to(f64::from(i) * 0.05, &values).unwrap();
-        let places = packing.engine().look().places.iter();
-        for (place, mirror) in places.zip(image.engine().look().places) {
+        packing.advance_to(f64::from(i) * 0.05, values).unwrap();
+        image.advance_to(f64::from(i) * 0.05, values).unwrap();
+        let places = packing.engine().observables().positions.iter();
+        for (place, mirror) in places.zip(image.engine().observables().positions) {
             assert_eq!([place[0], place[1], place[2]], [-mirror[0], mirror[1], -mirror[2]]);
         }
     }
-    let places = packing.engine().look().places.iter();
+    let places = packing.engine().observables().positions.iter();
     let turned = places.map(|place| place[2].abs()).fold(0.0, f64::max);
     assert!(turned > 0.01, "nothing turned: {turned}");
 }
@@ -125,18 +122,13 @@ fn turn_oppositely<E: SoftEngine>() {
 #[test]
 fn base_carries_the_weight() {
     let changes = [("contact.friction", 0.0), ("contact.normal_damping", 2.0)];
-    let values = values_of::<PackingOnInput>(SIXTY, &changes);
-    let mut packing = PackingOnInput::new(SIXTY, 0.0, &values).unwrap();
-    packing.advance_to(20.0, &values).unwrap();
-    packing.advance_to(20.5, &values).unwrap();
-    let weight = 9.8 * packing.engine().setup().masses.iter().sum::<f64>();
-    let outputs = outputs_of(&packing, &values);
-    assert!(
-        outputs.real("energy.kinetic") < 1e-9,
-        "{}",
-        outputs.real("energy.kinetic")
-    );
-    let force = outputs.real("base.reaction_force");
+    let mut packing = simulation_of::<PackingOnInput>(60, &changes);
+    packing.advance_to(20.0).unwrap();
+    packing.advance_to(20.5).unwrap();
+    let weight = 9.8 * packing.model().unwrap().engine().setup().masses.iter().sum::<f64>();
+    let kinetic = packing.real("energy.kinetic").unwrap();
+    assert!(kinetic < 1e-9, "{kinetic}");
+    let force = packing.real("base.reaction_force").unwrap();
     assert!(
         (force + weight).abs() < 1e-3 * weight,
         "{force} N on the base, weight {weight} N"
@@ -146,27 +138,27 @@ fn base_carries_the_weight() {
 /// One step of 2h is two of h, to the bit, however h and the time step relate, and so is a step cut in odd pieces.
 #[test]
 fn split_steps_give_the_same_bits() {
-    split_as_one::<Verlet<Sine>>();
-    split_as_one::<LocatedDynamics<Sine>>();
+    split_as_one::<Verlet, Sine>();
+    split_as_one::<EventStepper, Sine>();
 }
 
-fn split_as_one<E: SoftEngine>() {
-    let values = values_of::<SoftPacking<E>>(SIXTY, &[at_gamma(6.0)]);
+fn split_as_one<M: SoftMethod, D: BaseDrive>() {
     let ends = [
         vec![0.1],
         vec![0.05, 0.1],
         vec![1e-7, 0.012_345_6, 0.07, 0.070_000_1, 0.099_999_999, 0.1],
     ];
     let states = ends.map(|ends| {
-        let mut packing = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
+        let mut packing = simulation_of::<SoftPacking<M, D>>(60, &[at_gamma(6.0)]);
         for end in ends {
-            packing.advance_to(end, &values).unwrap();
+            packing.advance_to(end).unwrap();
         }
-        let now = packing.engine().look();
+        let packing = packing.model().unwrap();
+        let now = packing.engine().observables();
         (
             packing.state().engine,
-            now.places.to_vec(),
-            now.rates.to_vec(),
+            now.positions.to_vec(),
+            now.velocities.to_vec(),
             now.energy_lost,
         )
     });
@@ -177,39 +169,35 @@ fn split_as_one<E: SoftEngine>() {
 /// same bits, also in another instance.
 #[test]
 fn rollback_gives_the_same_bits() {
-    roll_back::<Verlet<FollowsInput>>();
-    roll_back::<LocatedDynamics<FollowsInput>>();
+    roll_back::<Verlet, FollowsInput>();
+    roll_back::<EventStepper, FollowsInput>();
 }
 
-fn roll_back<E: SoftEngine>() {
-    let mut values = values_of::<SoftPacking<E>>(SIXTY, &[]);
-    let shake = |packing: &mut SoftPacking<E>, values: &mut jostle::scene::Values, from: u32, to: u32| {
+fn roll_back<M: SoftMethod, D: BaseDrive>() {
+    let shake = |packing: &mut Simulation<SoftPacking<M, D>>, from: u32, to: u32| {
         let step = 1.0 / (80.0 * 24.0);
         for i in from..to {
             let phase = std::f64::consts::TAU * f64::from(i) / 24.0;
             let amplitude = Sine::amplitude_of(6.0, 80.0, 9.8);
-            values
-                .set_by_name("base.displacement", Value::Real(amplitude * phase.sin()))
+            packing.set("base.displacement", amplitude * phase.sin()).unwrap();
+            packing
+                .set("base.velocity", amplitude * 502.654_824_6 * phase.cos())
                 .unwrap();
-            values
-                .set_by_name("base.velocity", Value::Real(amplitude * 502.654_824_6 * phase.cos()))
-                .unwrap();
-            packing.advance_to(f64::from(i + 1) * step, values).unwrap();
+            packing.advance_to(f64::from(i + 1) * step).unwrap();
         }
     };
-    let mut packing = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
-    shake(&mut packing, &mut values, 0, 500);
-    let saved = packing.state();
-    let seen = outputs_of(&packing, &values);
-    shake(&mut packing, &mut values, 500, 900);
-    let ahead = (packing.state(), outputs_of(&packing, &values));
+    let mut packing = simulation_of::<SoftPacking<M, D>>(60, &[]);
+    shake(&mut packing, 0, 500);
+    let (saved, observed) = (packing.save(), packing.all_values());
+    shake(&mut packing, 500, 900);
+    let ahead = (packing.save(), packing.all_values());
 
-    let mut other = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
+    let mut other = simulation_of::<SoftPacking<M, D>>(60, &[]);
     for again in [&mut packing, &mut other] {
         again.restore(&saved).unwrap();
-        assert_eq!(outputs_of(again, &seen), seen);
-        shake(again, &mut values, 500, 900);
-        assert!((again.state(), outputs_of(again, &values)) == ahead);
+        assert_eq!(again.all_values(), observed);
+        shake(again, 500, 900);
+        assert!((again.save(), again.all_values()) == ahead);
     }
 }
 
@@ -217,10 +205,9 @@ fn roll_back<E: SoftEngine>() {
 #[test]
 fn threads_give_the_same_bits() {
     let run = || {
-        let values = values_of::<PackingOnSine>(SIXTY, &[at_gamma(4.0)]);
-        let mut packing = PackingOnSine::new(SIXTY, 0.0, &values).unwrap();
-        packing.advance_to(0.2, &values).unwrap();
-        packing.state()
+        let mut packing = simulation_of::<PackingOnSine>(60, &[at_gamma(4.0)]);
+        packing.advance_to(0.2).unwrap();
+        packing.save()
     };
     let alone = run();
     let threads: Vec<_> = (0..10).map(|_| std::thread::spawn(run)).collect();
@@ -232,28 +219,33 @@ fn threads_give_the_same_bits() {
 /// A base that jumps by a metre is refused; the state stays, and the same step with tame inputs is then done.
 #[test]
 fn a_refused_step_keeps_the_state() {
-    refuse_a_step::<Verlet<FollowsInput>>();
-    refuse_a_step::<LocatedDynamics<FollowsInput>>();
+    refuse_a_step::<Verlet, FollowsInput>();
+    refuse_a_step::<EventStepper, FollowsInput>();
 }
 
-fn refuse_a_step<E: SoftEngine>() {
-    let mut values = values_of::<SoftPacking<E>>(SIXTY, &[]);
-    let mut packing = SoftPacking::<E>::new(SIXTY, 0.0, &values).unwrap();
-    packing.advance_to(0.01, &values).unwrap();
-    let before = packing.state();
-    values.set_by_name("base.displacement", Value::Real(1.0)).unwrap();
-    let refusal = packing.advance_to(0.011, &values).unwrap_err();
-    assert!(matches!(refusal, Error::Step { scene: "packing", .. }), "{refusal}");
-    assert!(packing.state() == before);
-    values.set_by_name("base.displacement", Value::Real(0.0)).unwrap();
-    packing.advance_to(0.011, &values).unwrap();
+fn refuse_a_step<M: SoftMethod, D: BaseDrive>() {
+    let mut packing = simulation_of::<SoftPacking<M, D>>(60, &[]);
+    packing.advance_to(0.01).unwrap();
+    let before = (packing.model().unwrap().state(), outputs(&packing));
+    packing.set("base.displacement", 1.0).unwrap();
+    let refusal = packing.advance_to(0.011).unwrap_err();
+    assert!(matches!(refusal, Error::Step { model: "packing", .. }), "{refusal}");
+    assert!((packing.model().unwrap().state(), outputs(&packing)) == before);
+    packing.set("base.displacement", 0.0).unwrap();
+    packing.advance_to(0.011).unwrap();
+}
+
+/// All that the packing computes.
+fn outputs<M: SoftMethod, D: BaseDrive>(packing: &Simulation<SoftPacking<M, D>>) -> Vec<Value> {
+    let inputs = packing.values().as_slice().len();
+    packing.all_values().unwrap().split_off(inputs)
 }
 
 #[test]
 fn parameters_that_cannot_work_are_refused_by_name() {
     let refused = |changes: &[(&str, f64)]| {
-        let values = values_of::<PackingOnSine>(SIXTY, changes);
-        PackingOnSine::new(SIXTY, 0.0, &values)
+        let given: Vec<(&str, Value)> = changes.iter().map(|(name, value)| (*name, (*value).into())).collect();
+        Simulation::<PackingOnSine>::new(&[("disks", 60)], &given)
             .err()
             .map(|error| error.to_string())
             .unwrap_or_default()
@@ -265,23 +257,21 @@ fn parameters_that_cannot_work_are_refused_by_name() {
     );
     assert!(refused(&[("box.width", 0.04)]).contains("disk.radius_large"));
     // The largest step that the message names is accepted.
-    let values = values_of::<PackingOnSine>(SIXTY, &[]);
-    let packing = PackingOnSine::new(SIXTY, 0.0, &values).unwrap();
-    let largest = outputs_of(&packing, &values).real("largest_time_step");
+    let packing = simulation_of::<PackingOnSine>(60, &[]);
+    let largest = packing.real("largest_time_step").unwrap();
     assert_eq!(refused(&[("time_step", largest)]), "");
 }
 
 /// The packing starts on the base wherever the base starts, and a lifted base lifts it.
 #[test]
 fn packing_starts_on_the_base() {
-    let values = values_of::<PackingOnInput>(SIXTY, &[("base.displacement", 0.25)]);
-    let packing = Packing::<FollowsInput, VelocityVerlet>::new(SIXTY, 0.0, &values).unwrap();
-    let lowest = packing
-        .engine()
-        .now()
-        .places()
+    let packing = simulation_of::<PackingOnInput>(60, &[("base.displacement", 0.25)]);
+    let engine = packing.model().unwrap().engine();
+    let lowest = engine
+        .observables()
+        .positions
         .iter()
-        .zip(packing.engine().radii())
+        .zip(engine.radii())
         .map(|(place, radius)| place[1] - radius)
         .fold(f64::INFINITY, f64::min);
     assert!((lowest - 0.25).abs() < 1e-12);

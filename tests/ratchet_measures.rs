@@ -1,4 +1,4 @@
-//! Measures of the ratchet: averages against the places that the outputs tell, fields against brute force, conservation.
+//! Measures of the ratchet: averages against the positions among the outputs, fields against brute force, conservation.
 #![allow(clippy::unwrap_used)]
 
 mod support;
@@ -6,10 +6,9 @@ mod support;
 use jostle::drive::{Drive, Sine};
 use jostle::measure::{Cell, FlowFields, Transport};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine, Resolution};
-use jostle::scene::{Choice, Scene, Value, Values};
-use support::{outputs_of, values_of};
+use jostle::scene::{Model, Simulation, StructuralParameters};
+use support::simulation_of;
 
-const CHOICE: Choice = Choice { disks: 20 };
 const POSITIVE: [(&str, f64); 3] = [
     ("tooth.height", 3e-3),
     ("tooth.asymmetry", 0.1),
@@ -17,92 +16,86 @@ const POSITIVE: [(&str, f64); 3] = [
 ];
 const MASS: f64 = 1e-5;
 
-fn places(outputs: &Values) -> Vec<f64> {
-    (1..=20).map(|disk| outputs.real(&format!("disk.x[{disk}]"))).collect()
+fn positive() -> Simulation<RatchetOnSine> {
+    simulation_of(20, &POSITIVE)
 }
 
-/// The averages since a mark, from the places and energies that the outputs tell at its two ends.
+/// Outputs now: horizontal positions of the disks \[m\] and work of the base \[J\].
+fn positions_and_work(ratchet: &Simulation<RatchetOnSine>) -> (Vec<f64>, f64) {
+    let position = |disk: u32| ratchet.real(&format!("disk.x[{disk}]")).unwrap();
+    ((1..=20).map(position).collect(), ratchet.real("energy.input").unwrap())
+}
+
+/// The averages since a mark, from the positions and energies among the outputs at its two ends.
 #[test]
 fn averages_begin_anew_at_a_changed_mark() {
-    let mut values = values_of::<RatchetOnSine>(CHOICE, &POSITIVE);
-    values.set_by_name("measure.start", Value::Real(0.5)).unwrap();
-    let mut ratchet = RatchetOnSine::new(CHOICE, 0.0, &values).unwrap();
-    let mut from = None;
+    let changes = [POSITIVE.as_slice(), &[("measure.start", 0.5)]].concat();
+    let mut ratchet = simulation_of::<RatchetOnSine>(20, &changes);
+    let (mut from, mut former_mark) = (None, 0.0);
     for (mark, until) in [(0.0, 0.5), (0.0, 2.0), (7.0, 3.0), (7.0, 5.25), (7.5, 25.25)] {
-        let changed = mark != values.real("measure.mark");
-        values.set_by_name("measure.mark", Value::Real(mark)).unwrap();
-        let before = outputs_of(&ratchet, &values);
-        if changed {
-            from = Some((ratchet.state().report.time, before));
+        ratchet.set("measure.mark", mark).unwrap();
+        if mark != former_mark {
+            from = Some((ratchet.time(), positions_and_work(&ratchet)));
+            former_mark = mark;
         }
-        ratchet.advance_to(until, &values).unwrap();
-        let now = outputs_of(&ratchet, &values);
-        let Some((start, at_start)) = &from else {
-            assert!(until > 0.5 || now.real("transport_velocity") == 0.0);
-            from = Some((until, now));
+        ratchet.advance_to(until).unwrap();
+        let (positions, work) = positions_and_work(&ratchet);
+        let now = |name: &str| ratchet.real(name).unwrap();
+        let Some((start, (positions_then, work_then))) = &from else {
+            assert!(until > 0.5 || now("transport_velocity") == 0.0);
+            from = Some((until, (positions, work)));
             continue;
         };
         let time = until - start;
-        let own: Vec<f64> = places(&now)
+        let own: Vec<f64> = positions
             .iter()
-            .zip(places(at_start))
-            .map(|(place, start)| (place - start) / time)
+            .zip(positions_then)
+            .map(|(position, start)| (position - start) / time)
             .collect();
         let mean = own.iter().sum::<f64>() / 20.0;
         let variance = own.iter().map(|velocity| (velocity - mean).powi(2)).sum::<f64>() / 19.0;
-        let power = (now.real("energy.input") - at_start.real("energy.input")) / time;
-        assert!((now.real("transport_velocity") - mean).abs() < 1e-13, "until {until}");
-        assert!((now.real("transport_velocity.spread") - variance.sqrt()).abs() < 1e-13);
-        assert!((now.real("base.mean_power") / power - 1.0).abs() < 1e-12);
-        assert!((now.real("transport_velocity.standard_error") > 0.0) == (time >= 8.0 * Transport::FIRST_BATCH));
+        let power = (work - work_then) / time;
+        assert!((now("transport_velocity") - mean).abs() < 1e-13, "until {until}");
+        assert!((now("transport_velocity.spread") - variance.sqrt()).abs() < 1e-13);
+        assert!((now("base.mean_power") / power - 1.0).abs() < 1e-12);
+        assert!((now("transport_velocity.standard_error") > 0.0) == (time >= 8.0 * Transport::FIRST_BATCH));
     }
 }
 
 /// Steps cut anywhere and states brought back give the same bits, averages and all, also with marks and on inputs.
 #[test]
 fn averages_are_the_same_bits_however_one_steps() {
-    let mut values = values_of::<RatchetOnInput>(CHOICE, &[("measure.start", 0.3)]);
-    let mut run = |ratchet: &mut RatchetOnInput, ends: &[f64]| {
+    let run = |ratchet: &mut Simulation<RatchetOnInput>, ends: &[f64]| {
         for end in ends {
-            let (time, omega) = (ratchet.state().report.time, std::f64::consts::TAU * 25.0);
-            values
-                .set_by_name("base.velocity", Value::Real(0.3 * (omega * time).cos()))
-                .unwrap();
-            values.set_by_name("measure.mark", Value::Real(time.floor())).unwrap();
-            ratchet.advance_to(*end, &values).unwrap();
+            let (time, omega) = (ratchet.time(), std::f64::consts::TAU * 25.0);
+            ratchet.set("base.velocity", 0.3 * (omega * time).cos()).unwrap();
+            ratchet.set("measure.mark", time.floor()).unwrap();
+            ratchet.advance_to(*end).unwrap();
         }
-        (ratchet.state(), outputs_of(ratchet, &values))
+        (ratchet.save(), ratchet.all_values())
     };
     let ends: Vec<f64> = (1..=2500).map(|index| f64::from(index) * 1e-3).collect();
-    let new = || {
-        RatchetOnInput::new(
-            CHOICE,
-            0.0,
-            &values_of::<RatchetOnInput>(CHOICE, &[("measure.start", 0.3)]),
-        )
-        .unwrap()
-    };
-    let mut ratchet = new();
+    let start = || simulation_of::<RatchetOnInput>(20, &[("measure.start", 0.3)]);
+    let mut ratchet = start();
     let (saved, _) = run(&mut ratchet, &ends[..1300]);
     let ahead = run(&mut ratchet, &ends[1300..]);
-    let mut other = new();
+    assert!(ratchet.real("transport_velocity").unwrap() != 0.0);
+    let mut other = start();
     for again in [&mut ratchet, &mut other] {
         again.restore(&saved).unwrap();
         assert!(run(again, &ends[1300..]) == ahead);
     }
-    assert!(ahead.1.real("transport_velocity") != 0.0);
     // On a sine, where steps may be cut.
-    let values = values_of::<RatchetOnSine>(CHOICE, &POSITIVE);
     let [whole, cut] = [vec![9.0], vec![0.0999, 0.1, 0.3, 3.3, 3.300_000_1, 9.0]].map(|ends| {
-        let mut ratchet = RatchetOnSine::new(CHOICE, 0.0, &values).unwrap();
-        ends.iter().for_each(|end| ratchet.advance_to(*end, &values).unwrap());
-        let outputs = outputs_of(&ratchet, &values);
+        let mut ratchet = positive();
+        ends.iter().for_each(|end| ratchet.advance_to(*end).unwrap());
         let names = [
             "transport_velocity",
             "transport_velocity.standard_error",
             "transport_velocity.spread",
         ];
-        (ratchet.state().averages, names.map(|name| outputs.real(name)))
+        let averages = ratchet.model().unwrap().state().averages;
+        (averages, names.map(|name| ratchet.real(name).unwrap()))
     });
     assert!(whole == cut && whole.1.iter().all(|number| *number != 0.0));
 }
@@ -111,16 +104,15 @@ fn averages_are_the_same_bits_however_one_steps() {
 #[test]
 fn states_at_the_mark_are_taken_back() {
     for start in [0.0, 0.3, 1e9] {
-        let values = values_of::<RatchetOnSine>(CHOICE, &[("measure.start", start)]);
-        let mut ratchet = RatchetOnSine::new(CHOICE, 0.0, &values).unwrap();
+        let mut ratchet = simulation_of::<RatchetOnSine>(20, &[("measure.start", start)]);
         for end in [0.3, 0.7] {
-            let saved = ratchet.state();
-            ratchet.advance_to(end, &values).unwrap();
-            let ahead = ratchet.state();
+            let saved = ratchet.save();
+            ratchet.advance_to(end).unwrap();
+            let ahead = ratchet.save();
             ratchet.restore(&saved).unwrap();
-            assert!(ratchet.state() == saved);
-            ratchet.advance_to(end, &values).unwrap();
-            assert!(ratchet.state() == ahead);
+            assert!(ratchet.save() == saved);
+            ratchet.advance_to(end).unwrap();
+            assert!(ratchet.save() == ahead);
         }
     }
 }
@@ -128,9 +120,9 @@ fn states_at_the_mark_are_taken_back() {
 /// A state whose averages were tampered with is refused, and nothing changes.
 #[test]
 fn damaged_averages_are_refused() {
-    let values = values_of::<RatchetOnSine>(CHOICE, &POSITIVE);
-    let mut ratchet = RatchetOnSine::new(CHOICE, 0.0, &values).unwrap();
-    ratchet.advance_to(1.0, &values).unwrap();
+    let start = positive();
+    let mut ratchet = RatchetOnSine::new(start.structure(), 0.0, start.values()).unwrap();
+    ratchet.advance_to(1.0, start.values()).unwrap();
     let before = ratchet.state();
     for (mark, time) in [(0.5, 1.0), (f64::NAN, 1.0), (0.0, 1e9)] {
         let mut state = before.clone();
@@ -143,7 +135,7 @@ fn damaged_averages_are_refused() {
     assert!(ratchet.state() == before && ratchet.restore(&before).is_ok());
 }
 
-/// The error that one run tells is the scatter of forty (whose own error is a ninth).
+/// The standard error of one run is the scatter of forty (whose own error is a ninth).
 #[test]
 fn standard_errors_are_the_scatter_of_runs() {
     let runs: Vec<[f64; 2]> = (1..=40)
@@ -153,38 +145,31 @@ fn standard_errors_are_the_scatter_of_runs() {
                 &[("seed", f64::from(seed)), ("measure.start", 1.0)],
             ]
             .concat();
-            let values = values_of::<RatchetOnSine>(CHOICE, &changes);
-            let mut ratchet = RatchetOnSine::new(CHOICE, 0.0, &values).unwrap();
-            ratchet.advance_to(31.0, &values).unwrap();
-            let outputs = outputs_of(&ratchet, &values);
-            ["transport_velocity", "transport_velocity.standard_error"].map(|name| outputs.real(name))
+            let mut ratchet = simulation_of::<RatchetOnSine>(20, &changes);
+            ratchet.advance_to(31.0).unwrap();
+            ["transport_velocity", "transport_velocity.standard_error"].map(|name| ratchet.real(name).unwrap())
         })
         .collect();
     let mean = runs.iter().map(|run| run[0]).sum::<f64>() / 40.0;
     let scatter = (runs.iter().map(|run| (run[0] - mean).powi(2)).sum::<f64>() / 39.0).sqrt();
-    let told = (runs.iter().map(|run| run[1].powi(2)).sum::<f64>() / 40.0).sqrt();
-    println!("{mean:.4} m/s, scatter {scatter:.5}, told {told:.5} m/s");
-    assert!((0.6..1.6).contains(&(told / scatter)));
+    let estimated = (runs.iter().map(|run| run[1].powi(2)).sum::<f64>() / 40.0).sqrt();
+    println!("{mean:.4} m/s, scatter {scatter:.5}, estimated {estimated:.5} m/s");
+    assert!((0.6..1.6).contains(&(estimated / scatter)));
 }
 
 /// Fields of `seconds` after `warm_up`, their end, and the transport velocity over the same time.
-fn fields(
-    choice: Choice,
-    changes: &[(&str, f64)],
-    resolution: Resolution,
-    [warm_up, seconds]: [f64; 2],
-) -> (FlowFields, f64, f64) {
-    let mut values = values_of::<RatchetOnSine>(choice, changes);
-    let mut ratchet = RatchetOnSine::new(choice, 0.0, &values).unwrap();
-    ratchet.advance_to(warm_up, &values).unwrap();
-    values.set_by_name("measure.mark", Value::Real(1.0)).unwrap();
-    let mut fields = ratchet.flow_fields(resolution).unwrap();
+fn fields(changes: &[(&str, f64)], resolution: Resolution, [warm_up, seconds]: [f64; 2]) -> (FlowFields, f64, f64) {
+    let mut ratchet = simulation_of::<RatchetOnSine>(20, changes);
+    ratchet.advance_to(warm_up).unwrap();
+    ratchet.set("measure.mark", 1.0).unwrap();
+    let mut fields = ratchet.model().unwrap().flow_fields(resolution).unwrap();
     for piece in 1..=7 {
         let end = warm_up + seconds * f64::from(piece) / 7.0;
-        ratchet.advance_observed(end, &values, &mut fields).unwrap();
+        let step = |ratchet: &mut RatchetOnSine, values: &_| ratchet.advance_observed(end, values, &mut fields);
+        ratchet.advance_by(end, step).unwrap();
     }
-    let end = ratchet.show_last_flights(&mut fields);
-    (fields, end, outputs_of(&ratchet, &values).real("transport_velocity"))
+    let end = ratchet.model().unwrap().show_last_flights(&mut fields);
+    (fields, end, ratchet.real("transport_velocity").unwrap())
 }
 
 /// In each window all mass is in some box, and all momentum together is that of the transport. Over an epoch of the
@@ -198,7 +183,7 @@ fn fields_hold_all_mass_and_the_whole_transport() {
         ..Resolution::default()
     };
     for resolution in [Resolution::default(), whole] {
-        let (fields, end, transport) = fields(CHOICE, &changes, resolution, [25.037, 50.019]);
+        let (fields, end, transport) = fields(&changes, resolution, [25.037, 50.019]);
         let durations = fields.durations(end);
         let (mut mass, mut momentum) = (vec![0.0; durations.len()], 0.0);
         for cell in fields.cells(end) {
@@ -215,28 +200,27 @@ fn fields_hold_all_mass_and_the_whole_transport() {
     }
 }
 
-/// The same run, looked at 100,000 times a second: boxes differ by what a look every 10 us misses at their edges.
+/// The same run, sampled 100,000 times a second: boxes differ by what a sample every 10 us misses at their edges.
 #[test]
 fn fields_are_what_brute_force_sampling_tends_to() {
     let (warm_up, seconds, interval) = (0.5, 4.0, 1e-5);
-    let (fields, end, _) = fields(CHOICE, &POSITIVE, Resolution::default(), [warm_up, seconds]);
+    let (fields, end, _) = fields(&POSITIVE, Resolution::default(), [warm_up, seconds]);
     let exact: Vec<Cell> = fields.cells(end).collect();
     let rows = exact.len() / 36;
     let mut sampled = vec![[0.0; 3]; exact.len()];
-    let values = values_of::<RatchetOnSine>(CHOICE, &POSITIVE);
-    let mut ratchet = RatchetOnSine::new(CHOICE, 0.0, &values).unwrap();
+    let mut ratchet = positive();
     let lowest = (exact[0].y / 1e-3).floor();
-    for look in 0..400_000_u32 {
-        let time = warm_up + (f64::from(look) + 0.5) * interval;
-        ratchet.advance_to(time, &values).unwrap();
+    for sample in 0..400_000_u32 {
+        let time = warm_up + (f64::from(sample) + 0.5) * interval;
+        ratchet.advance_to(time).unwrap();
         let window = (6.0 * 25.0 * time).floor().rem_euclid(6.0) as usize;
         for disk in 0..20 {
-            let ([x, y], [vx, vy], ..) = ratchet.engine().seen(disk, time);
-            let column = (x / 1e-3).floor().rem_euclid(6.0) as usize;
-            let row = ((y / 1e-3).floor() - lowest) as usize;
+            let motion = ratchet.model().unwrap().engine().sample_at(time, disk);
+            let column = (motion.position.x / 1e-3).floor().rem_euclid(6.0) as usize;
+            let row = ((motion.position.y / 1e-3).floor() - lowest) as usize;
             let weight = MASS * interval / (seconds / 6.0);
             let sum = &mut sampled[(window * rows + row) * 6 + column];
-            for (index, amount) in [1.0, vx, vy].into_iter().enumerate() {
+            for (index, amount) in [1.0, motion.velocity.x, motion.velocity.y].into_iter().enumerate() {
                 sum[index] += weight * amount;
             }
         }
@@ -256,31 +240,34 @@ fn fields_are_what_brute_force_sampling_tends_to() {
     assert!(off[0] < 1e-3 * total && off[1] < 1e-3 * total * 0.3 && off[2] < 1e-3 * total);
 }
 
-/// Whoever looks on changes nothing, not a bit.
+/// An observer changes nothing, not a bit.
 #[test]
 fn an_observed_run_is_the_same_run() {
-    let values = values_of::<RatchetOnSine>(CHOICE, &POSITIVE);
-    let new = || RatchetOnSine::new(CHOICE, 0.0, &values).unwrap();
-    let (mut observed, mut alone) = (new(), new());
-    let mut fields = observed.flow_fields(Resolution::default()).unwrap();
-    observed.advance_observed(40.0, &values, &mut fields).unwrap();
-    alone.advance_to(40.0, &values).unwrap();
-    assert!(observed.state() == alone.state());
+    let (mut observed, mut alone) = (positive(), positive());
+    let mut fields = observed.model().unwrap().flow_fields(Resolution::default()).unwrap();
+    let step = |ratchet: &mut RatchetOnSine, values: &_| ratchet.advance_observed(40.0, values, &mut fields);
+    observed.advance_by(40.0, step).unwrap();
+    alone.advance_to(40.0).unwrap();
+    assert!(observed.save() == alone.save());
 }
 
 /// The drive in local time is the drive, at the start of every epoch and with odd phases.
 #[test]
 fn local_time_is_time() {
-    let values = values_of::<RatchetOnSine>(CHOICE, &[("drive.phase", -0.7)]);
-    let mut ratchet = RatchetOnSine::new(CHOICE, 0.1, &values).unwrap();
+    let structure = StructuralParameters::defaults(&RatchetOnSine::info());
+    let mut ratchet = Simulation::<RatchetOnSine>::prepare(structure);
+    ratchet.set("drive.phase", -0.7).unwrap();
+    ratchet.start(0.1).unwrap();
     let sine = Sine {
         amplitude: 2e-3,
         frequency: 25.0,
         phase: -0.7,
     };
     for time in [0.1, 20.0, 40.0, 70.0, 100.0] {
-        ratchet.advance_to(time, &values).unwrap();
-        let state = ratchet.engine().state();
+        if time > 0.1 {
+            ratchet.advance_to(time).unwrap();
+        }
+        let state = ratchet.model().unwrap().engine().state();
         let local = state.boundary.local_motion(time - state.epoch);
         let off = local.displacement - sine.motion(time).displacement;
         assert!(off.abs() < 1e-14, "{off:e} m at {time} s");

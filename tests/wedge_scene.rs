@@ -12,20 +12,14 @@ use jostle::scene::wedge::{
     WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
     WedgeMolecularDynamicsOnSine,
 };
-use jostle::scene::{Choice, Scene, Simulation, Value};
-use support::{order, outputs_of, values_of};
+use jostle::scene::{Model, Simulation};
+use support::{order, simulation_of};
 
-const ONE: Choice = Choice { disks: 1 };
-
-fn wedge<S: Scene>(parameters: &[(&str, f64)]) -> Simulation<S> {
-    let given: Vec<(&str, Value)> = parameters
-        .iter()
-        .map(|(name, value)| (*name, (*value).into()))
-        .collect();
-    Simulation::new(1, &given).unwrap()
+fn wedge<M: Model>(parameters: &[(&str, f64)]) -> Simulation<M> {
+    simulation_of(1, parameters)
 }
 
-fn scaled<S: Scene>(simulation: &Simulation<S>) -> (f64, f64) {
+fn scaled<M: Model>(simulation: &Simulation<M>) -> (f64, f64) {
     (
         simulation.real("scaled_angular_velocity").unwrap(),
         simulation.real("scaled_angular_velocity.standard_error").unwrap(),
@@ -33,33 +27,26 @@ fn scaled<S: Scene>(simulation: &Simulation<S>) -> (f64, f64) {
 }
 
 /// One step of 2 h, two of h, outputs read or not, saved and restored through bytes: the same bits.
-fn same_bits<S: Scene>() {
-    let values = values_of::<S>(ONE, &[("measure.start", 0.25)]);
-    let mut long = S::new(ONE, 0.0, &values).unwrap();
-    let mut short = S::new(ONE, 0.0, &values).unwrap();
+fn same_bits<M: Model>() {
+    let changes = [("measure.start", 0.25)];
+    let (mut long, mut short) = (wedge::<M>(&changes), wedge::<M>(&changes));
     for step in 1..=40 {
         let time = f64::from(step) * 0.02;
-        long.advance_to(time, &values).unwrap();
-        short.advance_to(time - 0.013, &values).unwrap();
-        outputs_of(&short, &values);
-        let bytes = postcard::to_stdvec(&short.state()).unwrap();
-        short.advance_to(time, &values).unwrap();
-        let after = outputs_of(&short, &values);
-        short.restore(&postcard::from_bytes(&bytes).unwrap()).unwrap();
-        short.advance_to(time, &values).unwrap();
-        assert_eq!(outputs_of(&short, &values), after, "rollback at {time}");
-        let name = |index: usize| values.table().rows()[index].name.clone();
-        for (index, (a, b)) in outputs_of(&long, &values)
-            .as_slice()
-            .iter()
-            .zip(after.as_slice())
-            .enumerate()
-        {
+        long.advance_to(time).unwrap();
+        short.advance_to(time - 0.013).unwrap();
+        short.all_values().unwrap();
+        let bytes = short.to_bytes().unwrap();
+        short.advance_to(time).unwrap();
+        let after = short.all_values().unwrap();
+        short.restore_bytes(&bytes).unwrap();
+        short.advance_to(time).unwrap();
+        assert_eq!(short.all_values().unwrap(), after, "rollback at {time}");
+        let names = long.variables().iter().map(|variable| &variable.name);
+        for (name, (a, b)) in names.zip(long.all_values().unwrap().iter().zip(&after)) {
             // The reaction is a mean over the last step.
             assert!(
-                a == b || name(index) == "base.reaction_force",
-                "{} at {time}: {a:?}, {b:?}",
-                name(index)
+                a == b || name == "base.reaction_force",
+                "{name} at {time}: {a:?}, {b:?}"
             );
         }
     }
@@ -75,27 +62,20 @@ fn stepping_changes_no_bit() {
 /// With inputs a step may change what comes, but a state that is restored still gives the same bits.
 #[test]
 fn rollback_under_inputs_gives_the_same_bits() {
-    let mut values = values_of::<WedgeEventDrivenOnInput>(ONE, &[]);
-    let mut scene = WedgeEventDrivenOnInput::new(ONE, 0.0, &values).unwrap();
-    let mut last = None;
+    let mut wedge = wedge::<WedgeEventDrivenOnInput>(&[]);
     for step in 1..=3000 {
         let time = f64::from(step) * 1e-3;
         let phase = TAU * 80.0 * (time - 1e-3);
-        values
-            .set_by_name("base.displacement", Value::Real(7.757e-5 * phase.sin()))
-            .unwrap();
-        values
-            .set_by_name("base.velocity", Value::Real(7.757e-5 * TAU * 80.0 * phase.cos()))
-            .unwrap();
-        let saved = scene.state();
-        scene.advance_to(time, &values).unwrap();
-        let after = scene.state();
-        scene.restore(&saved).unwrap();
-        scene.advance_to(time, &values).unwrap();
-        assert!(scene.state() == after);
-        last = Some(outputs_of(&scene, &values));
+        wedge.set("base.displacement", 7.757e-5 * phase.sin()).unwrap();
+        wedge.set("base.velocity", 7.757e-5 * TAU * 80.0 * phase.cos()).unwrap();
+        let saved = wedge.save();
+        wedge.advance_to(time).unwrap();
+        let after = wedge.save();
+        wedge.restore(&saved).unwrap();
+        wedge.advance_to(time).unwrap();
+        assert!(wedge.save() == after);
     }
-    assert!(last.unwrap().integer("collisions") > 50);
+    assert!(wedge.integer("collisions").unwrap() > 50);
 }
 
 /// Inputs sampled from a sine in short steps move the disk as the sine does, for a few impacts.
@@ -129,9 +109,9 @@ fn inputs_of_a_sine_are_the_sine() {
 }
 
 /// Steps of several sizes: the reaction forces add up to the change of momentum, and energies balance.
-fn bookkeeping<S: Scene>(tolerance: f64) {
-    let mut wedge = wedge::<S>(&[]);
-    let total = |wedge: &Simulation<S>| {
+fn bookkeeping<M: Model>(tolerance: f64) {
+    let mut wedge = wedge::<M>(&[]);
+    let total = |wedge: &Simulation<M>| {
         let elastic = wedge.real("energy.elastic").unwrap_or(0.0);
         wedge.real("energy.kinetic").unwrap() + wedge.real("energy.potential").unwrap() + elastic
     };
@@ -144,7 +124,10 @@ fn bookkeeping<S: Scene>(tolerance: f64) {
     }
     let gained = wedge.real("energy.input").unwrap() - wedge.real("energy.lost").unwrap();
     let residual = (total(&wedge) - start - gained) / wedge.real("energy.lost").unwrap();
-    println!("{}: energy residual {residual:.1e}", S::card().engine);
+    println!(
+        "{}: energy residual {residual:.1e}",
+        M::info().variant_of("engine").unwrap()
+    );
     assert!(residual.abs() < tolerance, "{residual:e}");
     // The weight, up to the momentum of the disk.
     let weight = 4.5e-3 * 9.81 * time;
@@ -159,16 +142,16 @@ fn energy_and_reaction_are_accounted_for() {
 }
 
 /// Without tilt there is no rotation; with it there is, and the other way with the other tilt.
-fn symmetric<S: Scene>(seconds: f64) {
+fn symmetric<M: Model>(seconds: f64) {
     let at = |tilt: f64| {
-        let mut wedge = wedge::<S>(&[("wedge.tilt", tilt), ("measure.start", 1.0)]);
+        let mut wedge = wedge::<M>(&[("wedge.tilt", tilt), ("measure.start", 1.0)]);
         wedge.advance_to(seconds).unwrap();
         scaled(&wedge)
     };
     let [(level, level_error), (ahead, error), (back, _)] = [0.0, 0.15, -0.15].map(at);
     println!(
         "{}: {level} +- {level_error}, {ahead} +- {error}, {back}",
-        S::card().engine
+        M::info().variant_of("engine").unwrap()
     );
     assert!(level.abs() < 4.0 * level_error && level_error > 0.0);
     assert!(ahead > 8.0 * error && (ahead + back).abs() < 6.0 * error);
@@ -239,8 +222,11 @@ fn stiff_contacts_become_impacts() {
 #[test]
 fn what_confines_nothing_is_refused_by_name() {
     let told = |parameters: &[(&str, f64)]| {
-        let values = values_of::<WedgeMap>(ONE, parameters);
-        WedgeMap::new(ONE, 0.0, &values).unwrap_err().to_string()
+        let given: Vec<_> = parameters
+            .iter()
+            .map(|(name, value)| (*name, (*value).into()))
+            .collect();
+        Simulation::<WedgeMap>::new(&[], &given).unwrap_err().to_string()
     };
     for tilt in [0.5237, -0.5237, 1.0] {
         let text = told(&[("wedge.tilt", tilt), ("wedge.aperture", 2.0944)]);
@@ -248,7 +234,7 @@ fn what_confines_nothing_is_refused_by_name() {
         assert!(text.contains("smaller wedge.aperture"), "{text}");
     }
     assert!(told(&[("drive.amplitude", 0.0)]).starts_with("drive.amplitude = 0"));
-    let flat = Simulation::<WedgeMap>::new(1, &[("wedge.aperture", 3.2.into())]);
+    let flat = Simulation::<WedgeMap>::new(&[], &[("wedge.aperture", 3.2.into())]);
     assert!(flat.unwrap_err().to_string().contains("from 1.047 to 3.14"));
 }
 
@@ -268,25 +254,24 @@ fn chatter_ends_or_is_told() {
         ("collision.restitution", 0.3),
         ("collision.minimum_normal_velocity", 0.0),
     ];
-    let values = values_of::<WedgeEventDrivenOnSine>(ONE, &parameters);
-    let mut bare = WedgeEventDrivenOnSine::new(ONE, 0.0, &values).unwrap();
-    bare.advance_to(1e-3, &values).unwrap();
-    let before = bare.state();
-    let error = bare.advance_to(100.0, &values).unwrap_err();
+    let mut bare = wedge::<WedgeEventDrivenOnSine>(&parameters);
+    bare.advance_to(1e-3).unwrap();
+    let before = bare.save();
+    let error = bare.advance_to(100.0).unwrap_err();
     let text = error.to_string();
-    assert!(matches!(error, Error::Step { scene: "wedge", time, .. } if time > 1e-3 && time < 100.0));
+    assert!(matches!(error, Error::Step { model: "wedge", time, .. } if time > 1e-3 && time < 100.0));
     for part in ["no progress", "wall", "Raise collision.minimum_normal_velocity"] {
         assert!(text.contains(part), "{text}");
     }
-    assert!(bare.state() == before);
-    bare.advance_to(2e-3, &values).unwrap();
+    assert!(bare.save() == before);
+    bare.advance_to(2e-3).unwrap();
 }
 
 /// Work counts, pinned within the time that trajectories can be foretold: a change shows in the diff.
 #[test]
 fn early_work_is_as_it_was() {
-    fn counted<S: Scene>() -> i64 {
-        let mut wedge = wedge::<S>(&[]);
+    fn counted<M: Model>() -> i64 {
+        let mut wedge = wedge::<M>(&[]);
         wedge.advance_to(0.25).unwrap();
         wedge.integer("collisions").unwrap()
     }

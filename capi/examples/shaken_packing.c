@@ -1,4 +1,4 @@
-/* The packing of the README on a shaken base, by the C library. */
+/* A packing on a shaken base, by the C library. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

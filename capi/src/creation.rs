@@ -4,9 +4,9 @@ use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::null_mut;
 
+use fmi_component::handle::describe;
+use fmi_component::memory;
 use jostle::Result;
-use jostle::fmi::abi::handle::describe;
-use jostle::fmi::abi::memory;
 use jostle::scene::{AnySimulation, Recipe, Selection};
 
 use crate::handle::{self, JostleSimulation};

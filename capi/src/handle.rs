@@ -3,12 +3,12 @@
 use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use jostle::fmi::abi::handle::{Barred, Handle, describe};
+use fmi_component::handle::{Barred, Handle, describe};
 use jostle::scene::AnySimulation;
 use jostle::{Error, Result};
 
-use crate::listing::Listing;
 use crate::text;
+use crate::texts::VariableTexts;
 
 /// How a call ended. Unless it is JOSTLE_STATUS_OK, `jostle_error_text` says what was wrong and what to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +41,7 @@ pub struct Inner {
     /// The simulation.
     pub simulation: AnySimulation,
     /// The texts of its variables, made when they are first asked for.
-    pub listing: Option<Listing>,
+    pub texts: Option<VariableTexts>,
     /// A panic has shown a defect: what the scene holds may be in pieces.
     pub failed: bool,
     error: String,
@@ -62,7 +62,7 @@ pub enum Access {
 pub fn hand_out(simulation: AnySimulation) -> *mut JostleSimulation {
     let inner = Inner {
         simulation,
-        listing: None,
+        texts: None,
         failed: false,
         error: String::new(),
     };

@@ -2,7 +2,7 @@
 //!
 //! Needs: a caller that passes pointers of the size it says, and no simulation that it has freed. Guarantees: everything
 //! else is checked; a panic stays in its own simulation; no globals, so that the library may be loaded and unloaded. Not
-//! here: the scenes (`jostle::scene`), FMI (`jostle::fmi`).
+//! here: the scenes (`jostle::scene`), FMI (`fmi_component`).
 #![allow(unsafe_code)] // pointers of the caller are followed here; nothing else in this crate needs to be
 
 mod creation;
@@ -10,6 +10,7 @@ mod handle;
 mod listing;
 mod saving;
 mod text;
+mod texts;
 mod values;
 
 pub use creation::{JostleSetting, jostle_free, jostle_new, jostle_new_from_toml};

@@ -1,14 +1,14 @@
 //! What there is: scenes, and the variables of a simulation.
 
-use std::ffi::{CString, c_char};
+use std::ffi::c_char;
 
-use jostle::fmi::abi::memory;
-use jostle::scene::catalogue::cards;
+use fmi_component::memory;
+use jostle::scene::catalogue::names;
 use jostle::scene::{self, Variable};
 
 use crate::handle::{Access, JostleSimulation, JostleStatus, enter};
 use crate::text;
-use crate::values::unknown;
+use crate::texts::{VariableTexts, unknown};
 
 /// Who sets a variable, and when.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,30 +60,6 @@ pub struct JostleVariable {
     pub start: f64,
 }
 
-/// The texts of all variables of a simulation.
-pub struct Listing {
-    texts: Vec<[CString; 4]>,
-}
-
-impl Listing {
-    fn new(rows: &[Variable]) -> Self {
-        // No text of a scene holds a zero byte.
-        let text = |text: &str| CString::new(text.replace('\0', "")).unwrap_or_default();
-        let texts = rows.iter().map(|row| {
-            let (unit, options) = match &row.kind {
-                scene::Kind::Real(quantity) => (quantity.unit.name(), String::new()),
-                scene::Kind::Enumeration { options, .. } => {
-                    let names: Vec<_> = options.iter().map(|(name, _)| *name).collect();
-                    ("1", names.join(","))
-                }
-                scene::Kind::Integer { .. } | scene::Kind::Long { .. } => ("1", String::new()),
-            };
-            [text(&row.name), text(unit), text(&row.description), text(&options)]
-        });
-        Self { texts: texts.collect() }
-    }
-}
-
 /// Version of the library, such as `0.1.0`.
 #[unsafe(no_mangle)]
 pub extern "C" fn jostle_version() -> *const c_char {
@@ -99,9 +75,9 @@ pub extern "C" fn jostle_version() -> *const c_char {
 /// `text` is null or has `size` bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn jostle_scenes(text: *mut c_char, size: usize) -> usize {
-    let lines = cards()
+    let lines = names()
         .into_iter()
-        .map(|card| format!("{} {} {}\n", card.scene, card.engine, card.drive));
+        .map(|names| format!("{} {} {}\n", names.scene, names.engine, names.drive));
     // SAFETY: passed on.
     unsafe { text::write(&lines.collect::<String>(), text, size) }
 }
@@ -116,7 +92,7 @@ pub unsafe extern "C" fn jostle_variable_count(simulation: *const JostleSimulati
     // SAFETY: passed on.
     unsafe {
         enter(simulation, Access::Read, |inner| {
-            count = inner.simulation.values().as_slice().len() as u32;
+            count = inner.simulation.variables().len() as u32;
             Ok(())
         });
     }
@@ -136,13 +112,12 @@ pub unsafe extern "C" fn jostle_variable(
     // SAFETY: passed on.
     unsafe {
         enter(simulation, Access::Read, |inner| {
-            let rows = inner.simulation.values().table().rows();
-            let row = rows
+            let variables = inner.simulation.variables();
+            let row = variables
                 .get(variable as usize)
-                .ok_or_else(|| unknown(&inner.simulation, variable))?;
-            let listing = inner.listing.get_or_insert_with(|| Listing::new(rows));
-            let texts = listing.texts[variable as usize].each_ref().map(|text| text.as_ptr());
-            memory::write(description, describe(row, texts), "description")
+                .ok_or_else(|| unknown(variables, variable))?;
+            let texts = inner.texts.get_or_insert_with(|| VariableTexts::new(variables));
+            memory::write(description, describe(row, texts.at(variable as usize)), "description")
         })
     }
 }

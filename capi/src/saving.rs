@@ -1,6 +1,6 @@
 //! Saved states as bytes.
 
-use jostle::fmi::abi::memory;
+use fmi_component::memory;
 use jostle::{Error, Result};
 
 use crate::handle::{Access, JostleSimulation, JostleStatus, enter};

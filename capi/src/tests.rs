@@ -4,8 +4,8 @@
 use std::ffi::{CStr, c_char};
 use std::ptr::null_mut;
 
-use fmu_probe::Probe;
 use jostle::scene::{AnySimulation, Simulation};
+use oscillators::Oscillators;
 
 use crate::JostleStatus::{Busy, Error, Failed, NoSimulation, Ok, StepRefused};
 use crate::*;
@@ -13,7 +13,9 @@ use crate::*;
 /// Oscillators that panic or refuse when told to.
 fn probe(given: &[(&str, f64)]) -> *mut JostleSimulation {
     let given: Vec<_> = given.iter().map(|&(name, value)| (name, value.into())).collect();
-    handle::hand_out(AnySimulation::from(Simulation::<Probe>::new(3, &given).unwrap()))
+    handle::hand_out(AnySimulation::from(
+        Simulation::<Oscillators>::new(&[], &given).unwrap(),
+    ))
 }
 
 fn told(simulation: *const JostleSimulation) -> String {

@@ -2,8 +2,8 @@
 
 use std::ffi::c_char;
 
+use fmi_component::memory;
 use jostle::Result;
-use jostle::fmi::abi::memory;
 
 /// Writes as much of `text` as fits, a zero byte behind it, and returns the size of all of it with the zero byte.
 ///

@@ -2,11 +2,12 @@
 
 use std::ffi::c_char;
 
-use jostle::fmi::abi::memory;
-use jostle::scene::{AnySimulation, Value};
+use fmi_component::memory;
+use jostle::scene::{AnySimulation, Value, Variable};
 use jostle::{Error, Result};
 
 use crate::handle::{Access, JostleSimulation, JostleStatus, enter};
+use crate::texts::unknown;
 
 /// Advances to `end_time` in seconds, under the inputs as they stand, as one communication step. `end_time` must lie after the
 /// present time. If the step is refused, nothing has changed.
@@ -182,15 +183,17 @@ pub unsafe extern "C" fn jostle_get_integer_by_name(
 }
 
 fn set_all(simulation: &mut AnySimulation, variables: &[u32], values: &[f64]) -> Result<()> {
-    let before = simulation.values().clone();
-    for (index, (&variable, &value)) in variables.iter().zip(values).enumerate() {
-        if let Err(error) = simulation.set_at(variable as usize, value) {
-            for &variable in &variables[..index] {
-                let kept = before.as_slice()[variable as usize];
-                simulation.set_at(variable as usize, kept)?;
+    let mut before = Vec::with_capacity(variables.len());
+    for (&variable, &value) in variables.iter().zip(values) {
+        let position = variable as usize;
+        let kept = simulation.value(position);
+        if let Err(error) = simulation.set_at(position, value) {
+            for (position, kept) in before.into_iter().rev() {
+                simulation.set_at(position, kept)?;
             }
             return Err(error);
         }
+        before.push((position, kept?));
     }
     Ok(())
 }
@@ -201,7 +204,7 @@ unsafe fn read<T>(
     simulation: *const JostleSimulation,
     (variables, count): (*const u32, usize),
     values: *mut T,
-    convert: impl Fn(&AnySimulation, usize, Value) -> Result<T>,
+    convert: impl Fn(&Variable, Value) -> Result<T>,
 ) -> JostleStatus {
     // SAFETY: passed on.
     unsafe {
@@ -210,46 +213,32 @@ unsafe fn read<T>(
             let mut values = memory::Output::new(values, count, "values")?;
             for (index, &variable) in variables.iter().enumerate() {
                 let position = variable as usize;
-                let value = inner.simulation.values().get(position);
-                let value = value.ok_or_else(|| unknown(&inner.simulation, variable))?;
-                values.write(index, convert(&inner.simulation, position, value)?);
+                let all = inner.simulation.variables();
+                let described = all.get(position).ok_or_else(|| unknown(all, variable))?;
+                values.write(index, convert(described, inner.simulation.value(position)?)?);
             }
             Ok(())
         })
     }
 }
 
-fn real(simulation: &AnySimulation, position: usize, value: Value) -> Result<f64> {
+fn real(variable: &Variable, value: Value) -> Result<f64> {
     match value {
         Value::Real(real) => Ok(real),
-        Value::Integer(_) => Err(other_kind(
-            simulation,
-            position,
-            "a whole number",
-            "jostle_get_integers",
-        )),
+        Value::Integer(_) => Err(other_kind(variable, "a whole number", "jostle_get_integers")),
     }
 }
 
-fn integer(simulation: &AnySimulation, position: usize, value: Value) -> Result<i64> {
+fn integer(variable: &Variable, value: Value) -> Result<i64> {
     match value {
         Value::Integer(integer) => Ok(integer),
-        Value::Real(_) => Err(other_kind(simulation, position, "a real number", "jostle_get")),
+        Value::Real(_) => Err(other_kind(variable, "a real number", "jostle_get")),
     }
 }
 
-fn other_kind(simulation: &AnySimulation, position: usize, kind: &str, function: &str) -> Error {
-    let name = &simulation.values().table().rows()[position].name;
-    Error::call(format!("{name} is {kind}"), format!("Read it with {function}."))
-}
-
-/// The refusal of a number that no variable has.
-pub fn unknown(simulation: &AnySimulation, variable: u32) -> Error {
-    let last = simulation.values().as_slice().len() - 1;
-    Error::parameter(
-        "variable",
-        variable,
-        format!("0 to {last}"),
-        "Take the numbers from jostle_find or jostle_variable.",
+fn other_kind(variable: &Variable, kind: &str, function: &str) -> Error {
+    Error::call(
+        format!("{} is {kind}", variable.name),
+        format!("Read it with {function}."),
     )
 }

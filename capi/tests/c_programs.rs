@@ -78,7 +78,7 @@ fn valgrind_finds_nothing() {
 #[test]
 fn the_example_prints_the_bits_of_the_crate() {
     let printed = run(&mut Command::new(compile("examples/shaken_packing.c", "so")));
-    let mut packing = Simulation::<PackingOnInput>::new(60, &[("seed", 1.into())]).unwrap();
+    let mut packing = Simulation::<PackingOnInput>::new(&[("disks", 60)], &[("seed", 1.into())]).unwrap();
     let omega = 2.0 * std::f64::consts::PI * 20.0;
     for n in 0..1024 {
         let time = f64::from(n) / 512.0;

@@ -4,7 +4,7 @@ use std::ffi::{CStr, CString, c_char};
 use std::ptr::null_mut;
 use std::sync::LazyLock;
 
-use jostle::scene::catalogue::cards;
+use jostle::scene::catalogue::names;
 use jostle_c::*;
 
 use super::hand::*;
@@ -72,8 +72,11 @@ static TEXTS: LazyLock<Vec<CString>> = LazyLock::new(|| {
 /// Scene, engine and drive of everything in the catalogue, and whether it may have more than one disk.
 static SCENES: LazyLock<Vec<([CString; 3], bool)>> = LazyLock::new(|| {
     let name = |text: &str| CString::new(text).expect("no zero byte");
-    let scenes = cards().into_iter();
-    let scenes = scenes.map(|card| ([card.scene, card.engine, card.drive].map(name), *card.disks.end() > 1));
+    let scenes = names().into_iter();
+    let scenes = scenes.map(|names| {
+        let many = ["packing", "ratchet"].contains(&names.scene);
+        ([names.scene, names.engine, names.drive].map(name), many)
+    });
     scenes.collect()
 });
 

@@ -8,13 +8,8 @@ use std::cell::Cell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr::null_mut;
 
-use jostle::fmi::abi::common::{Opaque, Status};
-use jostle::fmi::abi::fmi2::CallbackFunctions;
-use jostle::fmi::abi::fmi3::Boolean;
-use jostle::fmi::token;
-use jostle::scene::{Choice, Scene};
-
 use super::hand::{Hand, count, report_defects};
+use super::library::{Boolean, CallbackFunctions, Fmi2Log, Opaque, Status};
 
 /// An instance as its importer sees it: given to the library as the environment of its callbacks.
 pub struct Slot {
@@ -34,11 +29,11 @@ pub struct Importer<'a> {
     pub slots: Vec<Box<Slot>>,
     pub states: [Opaque; 6],
     pub saved: Vec<u8>,
-    /// Longest step that is still done in little time \[s\]; longer ones only if the scene refuses them at once.
+    /// Longest step that is still done in little time \[s\]; longer ones only if the model refuses them at once.
     pub longest_step: f64,
 }
 
-/// What may be told a library: the tokens of its scene, good and bad texts, and how many variables there are at most.
+/// What a library may be given: the tokens of its model, good and bad texts, and how many variables there are at most.
 pub struct Subject {
     tokens: Vec<CString>,
     texts: Vec<CString>,
@@ -46,25 +41,17 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// Scene S with each of these numbers of disks, with and without array variables.
-    pub fn new<S: Scene>(choices: &[u32]) -> Self {
+    /// A library that takes these tokens.
+    pub fn new(tokens: &[String], variables: usize) -> Self {
         let text = |bytes: &[u8]| CString::new(bytes).expect("no zero byte");
-        let (mut tokens, mut variables) = (Vec::new(), 0);
-        for disks in choices {
-            let choice = Choice { disks: *disks };
-            let rows = S::variables(choice);
-            variables = variables.max(rows.len() as u32);
-            for arrays in [false, true] {
-                tokens.push(text(token::compose(&S::card(), choice, &rows, arrays).as_bytes()));
-            }
-        }
+        let tokens: Vec<_> = tokens.iter().map(|token| text(token.as_bytes())).collect();
         let words = ["name", "", "logStatusError", "logEvents", "jostle:"].map(|word| text(word.as_bytes()));
         let mut texts = vec![tokens[0].clone(), text(&[0xff, 0xfe])];
         texts.extend(words);
         Self {
             tokens,
             texts,
-            variables,
+            variables: variables as u32,
         }
     }
 }
@@ -253,7 +240,7 @@ impl Slot {
         self.drop_callbacks();
         let callbacks = Box::new(CallbackFunctions {
             // SAFETY: the library passes no further argument, so that a variadic function is called alike.
-            logger: Some(unsafe { std::mem::transmute::<Plain, jostle::fmi::abi::logger::Fmi2Log>(log2) }),
+            logger: Some(unsafe { std::mem::transmute::<Plain, Fmi2Log>(log2) }),
             allocate_memory: None,
             free_memory: None,
             step_finished: None,

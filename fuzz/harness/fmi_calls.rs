@@ -1,15 +1,13 @@
 //! The table of all functions of both versions, each with the roles of its arguments, and the loop that draws from it and from
-//! `lives`. Whoever includes this file says in `super::library` which library is called.
+//! `lives`. What includes this file says in `super::library` which library is called.
 
 use std::sync::LazyLock;
-
-use jostle::fmi::abi::common::Opaque;
 
 use super::fmi::{CALL_BACK, Importer, LOOK_INSIDE, Subject, check};
 use super::hand::*;
 use super::library::fmi2::*;
 use super::library::fmi3::*;
-use super::library::{LONGEST_STEP, Scene, choices};
+use super::library::{LONGEST_STEP, Opaque, Status, tokens};
 use super::lives::{LIVES, begin, call_back, look_inside, release};
 
 /// An argument of a call.
@@ -46,6 +44,14 @@ impl Role for StateSlot {
     type Argument = *mut Opaque;
     fn draw(importer: &mut Importer) -> *mut Opaque {
         importer.state_slot()
+    }
+}
+
+struct Statuses;
+impl Role for Statuses {
+    type Argument = *mut Status;
+    fn draw(importer: &mut Importer) -> *mut Status {
+        <Zeros as Draw>::draw(&mut importer.hand).cast()
     }
 }
 
@@ -182,7 +188,10 @@ table! {
 }
 
 pub fn run(bytes: &[u8]) {
-    static SUBJECT: LazyLock<Subject> = LazyLock::new(|| Subject::new::<Scene>(&choices()));
+    static SUBJECT: LazyLock<Subject> = LazyLock::new(|| {
+        let (tokens, variables) = tokens();
+        Subject::new(&tokens, variables)
+    });
     CALL_BACK.set(Some(call_back));
     LOOK_INSIDE.set(Some(look_inside));
     let mut importer = Importer::new(bytes, &SUBJECT, LONGEST_STEP);

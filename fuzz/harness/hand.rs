@@ -32,7 +32,7 @@ pub fn count_step(done: bool) {
     STEPS.fetch_add(u64::from(done), Ordering::Relaxed);
 }
 
-/// Panics that a scene was told to do are none to report; any other ends the process, though the boundary catches it.
+/// Panics that a model was told to do are none to report; any other ends the process, though the boundary catches it.
 pub fn report_defects() {
     static ONCE: std::sync::Once = std::sync::Once::new();
     ONCE.call_once(|| {
@@ -280,7 +280,7 @@ roles! {
     Short -> *mut i16 = |hand| filled!(hand, integers, 0);
     UnsignedShort -> *mut u16 = |hand| filled!(hand, integers, 0);
     UnsignedLongs -> *mut u64 = |hand| filled!(hand, longs, i64::from(hand.byte()));
-    Statuses -> *mut jostle::fmi::abi::common::Status = |hand| filled!(hand, integers, 0);
+    Zeros -> *mut i32 = |hand| filled!(hand, integers, 0);
     Nothing -> *mut std::ffi::c_void = |_hand| std::ptr::null_mut();
     NoBinaries -> *mut *const u8 = |_hand| std::ptr::null_mut();
 }

@@ -3,13 +3,11 @@
 
 use std::ptr::{null, null_mut};
 
-use jostle::fmi::abi::common::{Opaque, Status};
-use jostle::fmi::abi::fmi3::IntermediateUpdate;
-
 use super::fmi::{Importer, Slot, check, log3, update3};
 use super::hand::*;
 use super::library::fmi2::*;
 use super::library::fmi3::*;
+use super::library::{IntermediateUpdate, Opaque, Status};
 
 type Call = fn(&mut Importer);
 

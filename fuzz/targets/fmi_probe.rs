@@ -1,4 +1,4 @@
-//! Both versions of FMI with the probe scene, which refuses and panics when told to.
+//! Both versions of FMI with the oscillators, which refuse and panic when told to.
 #![no_main]
 
 #[path = "../harness/fmi.rs"]
@@ -11,12 +11,16 @@ mod hand;
 mod lives;
 #[path = "../harness/mutate.rs"]
 mod mutate;
+#[path = "../harness/tokens.rs"]
+mod tokens;
 
 mod library {
-    pub use fmu_probe::{Probe as Scene, fmi2, fmi3};
+    pub use fmi_component::c_api::{Boolean, CallbackFunctions, Fmi2Log, IntermediateUpdate, Opaque, Status};
+    pub use oscillators::{fmi2, fmi3};
     pub const LONGEST_STEP: f64 = 1e300;
-    pub fn choices() -> Vec<u32> {
-        vec![3, 1]
+    pub fn tokens() -> (Vec<String>, usize) {
+        let model = fmi_component::ModelType::of::<oscillators::Oscillators>();
+        super::tokens::of(&model, &[&[("bodies", 3)], &[("bodies", 1)]])
     }
 }
 

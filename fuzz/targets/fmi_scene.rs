@@ -13,9 +13,13 @@ mod hand;
 mod lives;
 #[path = "../harness/mutate.rs"]
 mod mutate;
+#[path = "../harness/tokens.rs"]
+mod tokens;
 
 mod library {
-    pub use super::any_scene::{AnyScene as Scene, choices, fmi2, fmi3};
+    pub use super::any_scene::{
+        Boolean, CallbackFunctions, Fmi2Log, IntermediateUpdate, Opaque, Status, choices, fmi2, fmi3, tokens,
+    };
     pub const LONGEST_STEP: f64 = 0.05;
 }
 

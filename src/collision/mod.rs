@@ -39,8 +39,8 @@ pub struct Impact {
     pub normal_velocity: f64,
     /// u_t \[m/s\] of the surfaces. Laws that do not rotate ignore it.
     pub tangential_velocity: f64,
-    /// Time \[s\] since the last impact of either body, the shorter of the two. Only laws that remember look at it
-    /// ([`CollisionLaw::REMEMBERS`]); infinite where nobody keeps it.
+    /// Time \[s\] since the last impact of either body, the shorter of the two. Only laws that remember use it
+    /// ([`CollisionLaw::REMEMBERS`]); infinite where the engine does not keep it.
     pub time_since_last: f64,
 }
 
@@ -114,7 +114,7 @@ pub fn tangential_mass(
 }
 
 /// A number in [0, `most`], or the parameter's name and what to do.
-fn checked(name: &'static str, value: f64, most: f64, remedy: &'static str) -> crate::Result<f64> {
+fn checked(name: &'static str, value: f64, most: f64, remedy: &'static str) -> crate::error::Result<f64> {
     if value.is_finite() && (0.0..=most).contains(&value) {
         return Ok(value);
     }
@@ -123,7 +123,7 @@ fn checked(name: &'static str, value: f64, most: f64, remedy: &'static str) -> c
     } else {
         "0 or more, finite".to_string()
     };
-    Err(crate::Error::parameter(name, value, allowed, remedy))
+    Err(crate::error::Error::parameter(name, value, allowed, remedy))
 }
 
 #[cfg(test)]

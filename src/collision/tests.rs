@@ -1,4 +1,7 @@
+use nalgebra::Vector2;
+
 use super::*;
+use crate::geometry::clockwise;
 
 /// A disk, a ball or a wall in an impact: motion and what moves it.
 #[derive(Clone, Copy)]
@@ -6,7 +9,7 @@ struct Body {
     mass: f64,
     radius: f64,
     inertia: f64,
-    velocity: [f64; 2],
+    velocity: Vector2<f64>,
     spin: f64,
 }
 
@@ -24,39 +27,27 @@ impl Body {
     }
 
     fn energy(&self) -> f64 {
-        let [x, y] = self.velocity;
-        0.5 * self.mass * (x * x + y * y) + 0.5 * self.inertia * self.spin * self.spin
+        0.5 * self.mass * self.velocity.norm_squared() + 0.5 * self.inertia * self.spin * self.spin
     }
 }
 
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-fn impact_of(first: &Body, second: &Body, n: [f64; 2]) -> Impact {
-    let t = [n[1], -n[0]];
-    let relative = [
-        first.velocity[0] - second.velocity[0],
-        first.velocity[1] - second.velocity[1],
-    ];
+fn impact_of(first: &Body, second: &Body, n: Vector2<f64>) -> Impact {
+    let relative = first.velocity - second.velocity;
     let (a, b) = (first.inverse_mass(), second.inverse_mass());
     Impact {
         effective_mass: effective_mass(a, b),
         tangential_mass: tangential_mass(a, b, first.inverse_inertia(), second.inverse_inertia()),
-        normal_velocity: dot(relative, n),
-        tangential_velocity: dot(relative, t) + first.radius * first.spin + second.radius * second.spin,
+        normal_velocity: relative.dot(&n),
+        tangential_velocity: relative.dot(&clockwise(&n)) + first.radius * first.spin + second.radius * second.spin,
         time_since_last: f64::INFINITY,
     }
 }
 
-fn apply(body: &mut Body, sign: f64, n: [f64; 2], impulse: Impulse) {
+fn apply(body: &mut Body, sign: f64, n: Vector2<f64>, impulse: Impulse) {
     if body.mass.is_infinite() {
         return;
     }
-    let t = [n[1], -n[0]];
-    for (axis, velocity) in body.velocity.iter_mut().enumerate() {
-        *velocity += sign * (impulse.normal * n[axis] + impulse.tangential * t[axis]) / body.mass;
-    }
+    body.velocity += sign * (impulse.normal * n + impulse.tangential * clockwise(&n)) / body.mass;
     // The rim at the contact turns the same way on both bodies.
     body.spin += body.radius * impulse.tangential / body.inertia;
 }
@@ -79,7 +70,7 @@ impl Uniform {
             mass,
             radius,
             inertia: inertia_factor * mass * radius * radius,
-            velocity: [2.0 * self.next() - 1.0, 2.0 * self.next() - 1.0],
+            velocity: Vector2::new(2.0 * self.next() - 1.0, 2.0 * self.next() - 1.0),
             spin: (2.0 * self.next() - 1.0) / radius,
         }
     }
@@ -89,12 +80,12 @@ const WALL: Body = Body {
     mass: f64::INFINITY,
     radius: 0.0,
     inertia: f64::INFINITY,
-    velocity: [0.0; 2],
+    velocity: Vector2::new(0.0, 0.0),
     spin: 0.0,
 };
 
 /// Approaching pairs, disks and balls, disks and walls, with the normal.
-fn pairs(count: usize) -> Vec<(Body, Body, [f64; 2])> {
+fn pairs(count: usize) -> Vec<(Body, Body, Vector2<f64>)> {
     let mut random = Uniform(7);
     let mut pairs = Vec::new();
     while pairs.len() < count {
@@ -106,8 +97,9 @@ fn pairs(count: usize) -> Vec<(Body, Body, [f64; 2])> {
             WALL
         };
         let (sine, cosine) = (std::f64::consts::TAU * random.next()).sin_cos();
-        if impact_of(&first, &second, [cosine, sine]).normal_velocity < 0.0 {
-            pairs.push((first, second, [cosine, sine]));
+        let normal = Vector2::new(cosine, sine);
+        if impact_of(&first, &second, normal).normal_velocity < 0.0 {
+            pairs.push((first, second, normal));
         }
     }
     pairs
@@ -125,12 +117,12 @@ fn check<L: CollisionLaw>(law: &L, friction: f64) -> (f64, f64) {
         let after = impact_of(&a, &b, n);
         assert!((after.normal_velocity - law.separation_velocity(&impact)).abs() < 1e-14);
         assert!(impulse.normal >= 0.0 && impulse.tangential.abs() <= friction * impulse.normal);
-        let t = [n[1], -n[0]];
+        let t = clockwise(&n);
         let mut gain = a.energy() - first.energy();
         for (body, was, arm) in [(a, first, 1.0), (b, second, -1.0)] {
             if body.mass.is_finite() {
                 // About the contact, at distance R from the centre, m R v_t and I omega exchange (P 2.13, 2.14).
-                let change = dot(body.velocity, t) - dot(was.velocity, t);
+                let change = body.velocity.dot(&t) - was.velocity.dot(&t);
                 let spin = body.inertia * (body.spin - was.spin);
                 assert!((arm * body.mass * body.radius * change - spin).abs() < 1e-14);
             }
@@ -258,7 +250,7 @@ fn sliding_after_the_first_stick() {
             let ratio = factor * law.slides_throughout_from(1.0, 1.0 / 3.0);
             let full = 1.0 - 3.0 * mu * (1.0 + restitution) / ratio;
             let excess = law.tangential_restitution(1.0, 1.0 / 3.0, ratio) - full;
-            // The skin is up after t_1 <= mu N_max / (kappa u_min), and takes less than mu N until then.
+            // The spring is at its limit after t_1 <= mu N_max / (kappa u_min), and takes less than mu N until then.
             let most_force = (1.0 + 4.0 * c * c).sqrt();
             let first_stick = mu * most_force / (kappa * (ratio - 3.0 * mu * (1.0 + restitution)));
             assert!(
@@ -327,7 +319,7 @@ fn degenerate_impacts() {
     assert_eq!(table.impulse(&other), law.impulse(&other));
 }
 
-/// A skin too stiff for tables is found out once, not for each of the masses.
+/// A spring too stiff for tables is found out once, not for each of the masses.
 #[test]
 fn a_table_without_end_is_given_up_once() {
     let masses: Vec<f64> = (1..=40).map(|mass| 1e-3 * f64::from(mass)).collect();

@@ -17,7 +17,7 @@ pub struct FollowsInput {
 }
 
 impl FollowsInput {
-    /// Base that keeps a constant velocity \[m/s\] through `displacement` \[m\] at `time` \[s\] until it is aimed.
+    /// Base that keeps a constant velocity \[m/s\] through `displacement` \[m\] at `time` \[s\] until it has a target.
     pub fn uniform(time: f64, displacement: f64, velocity: f64) -> Self {
         Self {
             start_time: time,
@@ -38,7 +38,7 @@ impl FollowsInput {
     /// Goes on from where the base is at `time` \[s\] so that after `duration` \[s\] it is where the inputs predict.
     ///
     /// Source: cubic Hermite interpolation.
-    pub fn aim(&mut self, time: f64, duration: f64, displacement: f64, velocity: f64) {
+    pub fn set_target(&mut self, time: f64, duration: f64, displacement: f64, velocity: f64) {
         let from = self.motion(time);
         let target = displacement + duration * velocity;
         let (start_slope, end_slope) = (from.velocity * duration, velocity * duration);
@@ -104,7 +104,7 @@ mod tests {
     #[test]
     fn reaches_the_prediction_without_jumps() {
         let mut base = FollowsInput::uniform(2.0, 0.1, -0.3);
-        base.aim(2.0, 0.25, 0.2, 0.7);
+        base.set_target(2.0, 0.25, 0.2, 0.7);
         let start = base.motion(2.0);
         let end = base.motion(2.25);
         assert!((start.displacement - 0.1).abs() < 1e-15 && (start.velocity + 0.3).abs() < 1e-15);
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn never_exceeds_its_highest() {
         let mut base = FollowsInput::uniform(0.0, 0.0, 3.0);
-        base.aim(0.0, 0.5, -0.2, -1.0);
+        base.set_target(0.0, 0.5, -0.2, -1.0);
         let reached = (0..=1000)
             .map(|i| base.motion(0.5 * f64::from(i) / 1000.0).displacement)
             .fold(0.0, f64::max);
@@ -130,7 +130,7 @@ mod tests {
     #[test]
     fn velocity_and_acceleration_are_the_derivatives() {
         let mut base = FollowsInput::uniform(0.0, 0.0, 0.0);
-        base.aim(0.0, 1e-3, 1e-5, 0.02);
+        base.set_target(0.0, 1e-3, 1e-5, 0.02);
         let (before, after, middle) = (base.motion(4e-4), base.motion(6e-4), base.motion(5e-4));
         assert!(((after.velocity - before.velocity) / 2e-4 - middle.acceleration).abs() < 1e-9);
         let simpson = 2e-4 / 6.0 * (before.velocity + 4.0 * middle.velocity + after.velocity);

@@ -2,6 +2,7 @@
 //!
 //! A drive is a type, so that a scene compiles only the one it has.
 
+mod base_motion;
 pub mod excitation;
 mod first_hit;
 mod follows_input;
@@ -11,6 +12,7 @@ mod sine;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+pub use base_motion::{AtRandomPhase, BaseMotion};
 pub use first_hit::FirstHit;
 pub use follows_input::FollowsInput;
 pub use random_phase::{RandomPhase, leaves_wall};

@@ -36,13 +36,13 @@ impl RandomPhase {
     /// Source: P 2.37 to 2.40; density `k (v_b - v_n) / (2 pi |v_n| sqrt(V^2 - v_b^2))` on a horizontal wall.
     #[inline]
     pub fn sample(&self, generator: &mut impl Rng, normal_velocity: f64, normal_up: f64) -> f64 {
-        let reach = self.peak_velocity * normal_up.abs();
-        if reach == 0.0 {
+        let peak = self.peak_velocity * normal_up.abs();
+        if peak == 0.0 {
             return 0.0;
         }
         // Odd multiples of 2^-54: neither 0 nor 1 is ever drawn.
         let even = ((generator.next_u64() >> 11) as f64 + 0.5) * (0.5 / (1_u64 << 52) as f64);
-        let cosine = cosine_of_phase(normal_velocity.abs() / reach, even);
+        let cosine = cosine_of_phase(normal_velocity.abs() / peak, even);
         // The wall moves along its normal by n_y times the base: a ceiling comes to meet the disk going down.
         self.peak_velocity * if normal_up > 0.0 { cosine } else { -cosine }
     }

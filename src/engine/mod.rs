@@ -1,10 +1,50 @@
-//! What advances time.
+//! What advances time, and what a scene needs of it.
 
+pub mod dem;
+mod disk_motion;
+pub mod disk_on_two_supports;
 pub mod event_driven;
-pub mod located_dynamics;
-pub mod molecular_dynamics;
-pub mod three_disk;
 pub mod wedge;
-pub mod work;
+pub mod work_budget;
 
-pub use work::{MOST_WORK_IN_A_CALL, Work};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+pub use disk_motion::DiskMotion;
+pub use work_budget::{MOST_WORK_IN_A_CALL, WorkBudget};
+
+/// What a scene needs of an engine.
+///
+/// Contract: the trajectory does not depend on the times to which it is advanced or at which it is observed.
+pub trait Engine: Sized + Send + 'static {
+    /// Everything that changes with time.
+    type State: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static;
+    /// Why the engine cannot go on.
+    type Stop;
+
+    /// Advances to `end_time` \[s\] and takes the work that it costs off `budget`.
+    ///
+    /// # Errors
+    /// The engine cannot go on, or the budget is too small. Nothing has changed then but the budget.
+    fn advance_within(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<(), Self::Stop>;
+
+    /// Advances to `end_time` \[s\] within the default budget.
+    ///
+    /// # Errors
+    /// As [`Self::advance_within`].
+    fn advance_to(&mut self, end_time: f64) -> Result<(), Self::Stop> {
+        self.advance_within(end_time, &mut WorkBudget::default())
+    }
+
+    /// All that the future depends on.
+    fn state(&self) -> &Self::State;
+
+    /// Whether `state`, observed at `time` \[s\], can be one of this run.
+    fn fits(&self, state: &Self::State, time: f64) -> bool;
+
+    /// Continues from a `state` that fits, observed at `time` \[s\].
+    ///
+    /// # Errors
+    /// The observation at `time` cannot be computed. Nothing has changed then.
+    fn restore(&mut self, state: &Self::State, time: f64) -> Result<(), Self::Stop>;
+}

@@ -7,6 +7,13 @@ pub mod time_of_impact;
 pub mod wall;
 
 pub use disk::Disk;
-pub use sawtooth::SawtoothProfile;
+pub use nalgebra::Vector2;
+pub use sawtooth::{Clearance, SawtoothProfile};
 pub use time_of_impact::{Flight, disk_disk, disk_wall};
 pub use wall::Wall;
+
+/// The vector turned clockwise by a right angle: the tangent that goes with a normal.
+#[inline(always)]
+pub fn clockwise(vector: &Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(vector.y, -vector.x)
+}

@@ -8,8 +8,12 @@
 //!
 //! Source: F III, Fig. 5; the height is that of the sharp apex, before rounding.
 
+use std::ops::RangeInclusive;
+
+use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
+use super::clockwise;
 use crate::error::{Error, Result};
 
 /// Periodic row of equal teeth; a tooth begins at each multiple of its width.
@@ -20,7 +24,7 @@ pub struct SawtoothProfile {
     /// Radius s of the arc \[m\].
     tip_radius: f64,
     /// Centre of the arc of the tooth that begins at zero \[m\].
-    centre: [f64; 2],
+    centre: Vector2<f64>,
     /// Left and right side.
     sides: [Side; 2],
     /// Height of the rounded top \[m\].
@@ -30,12 +34,17 @@ pub struct SawtoothProfile {
 /// One side of a wedge: unit vector down along it, unit normal out of it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Side {
-    down: [f64; 2],
-    normal: [f64; 2],
+    down: Vector2<f64>,
+    normal: Vector2<f64>,
 }
 
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
+/// Where a point is from a tooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clearance {
+    /// Distance \[m\].
+    pub distance: f64,
+    /// Unit normal, from the tooth to the point.
+    pub normal: Vector2<f64>,
 }
 
 impl SawtoothProfile {
@@ -48,41 +57,33 @@ impl SawtoothProfile {
         check(
             "tooth.width",
             width,
-            f64::MIN_POSITIVE,
-            f64::MAX,
+            f64::MIN_POSITIVE..=f64::MAX,
             "a finite length above 0 m",
         )?;
         check(
             "tooth.height",
             height,
-            0.0,
-            f64::MAX,
+            0.0..=f64::MAX,
             "a finite length from 0 m, which is flat",
         )?;
-        check(
-            "tooth.asymmetry",
-            asymmetry,
-            0.0,
-            1.0,
-            "from 0, a vertical left side, to 1, a vertical right side",
-        )?;
+        let vertical = "from 0, a vertical left side, to 1, a vertical right side";
+        check("tooth.asymmetry", asymmetry, 0.0..=1.0, vertical)?;
         check(
             "tooth.tip_radius",
             tip_radius,
-            0.0,
-            f64::MAX,
+            0.0..=f64::MAX,
             "a finite length from 0 m, which is sharp",
         )?;
         let (left, right) = (asymmetry * width, (1.0 - asymmetry) * width);
         if height == 0.0 {
             let side = |sign: f64| Side {
-                down: [sign, 0.0],
-                normal: [0.0, 1.0],
+                down: Vector2::new(sign, 0.0),
+                normal: Vector2::y(),
             };
             return Ok(Self {
                 width,
                 tip_radius: 0.0,
-                centre: [left, 0.0],
+                centre: Vector2::new(left, 0.0),
                 sides: [side(-1.0), side(1.0)],
                 top: 0.0,
             });
@@ -96,19 +97,12 @@ impl SawtoothProfile {
             ));
         }
         let lengths = [left.hypot(height), right.hypot(height)];
-        let sides = [
-            Side {
-                down: [-left / lengths[0], -height / lengths[0]],
-                normal: [-height / lengths[0], left / lengths[0]],
-            },
-            Side {
-                down: [right / lengths[1], -height / lengths[1]],
-                normal: [height / lengths[1], right / lengths[1]],
-            },
-        ];
+        let one = Vector2::new(-left, -height) / lengths[0];
+        let two = Vector2::new(right, -height) / lengths[1];
+        let side = |down, normal| Side { down, normal };
+        let sides = [side(one, clockwise(&one)), side(two, -clockwise(&two))];
         // Tangent of half the angle at the apex: |sin| / (1 + cos) of the whole.
-        let (one, two) = (sides[0].down, sides[1].down);
-        let half = (one[0] * two[1] - one[1] * two[0]).abs() / (1.0 + dot(one, two));
+        let half = one.perp(&two).abs() / (1.0 + one.dot(&two));
         let shortest = lengths[0].min(lengths[1]);
         if tip_radius > shortest * half {
             return Err(Error::parameter(
@@ -124,16 +118,13 @@ impl SawtoothProfile {
         }
         // From the apex the centre lies at tip_radius / half down one side and tip_radius inwards.
         let along = if half > 0.0 { tip_radius / half } else { 0.0 };
-        let centre = [
-            left + along * one[0] - tip_radius * sides[0].normal[0],
-            height + along * one[1] - tip_radius * sides[0].normal[1],
-        ];
+        let centre = Vector2::new(left, height) + along * one - tip_radius * sides[0].normal;
         Ok(Self {
             width,
             tip_radius,
             centre,
             sides,
-            top: centre[1] + tip_radius,
+            top: centre.y + tip_radius,
         })
     }
 
@@ -147,29 +138,36 @@ impl SawtoothProfile {
         self.top
     }
 
-    /// Numbers of the first and the last tooth of which some part lies between `left` and `right` \[m\].
+    /// Numbers of the teeth of which some part lies within `half_width` \[m\] of `x` \[m\].
     #[inline]
-    pub fn teeth_between(&self, left: f64, right: f64) -> (i64, i64) {
-        ((left / self.width).floor() as i64, (right / self.width).floor() as i64)
+    pub fn teeth_within(&self, half_width: f64, x: f64) -> RangeInclusive<i64> {
+        let tooth_at = |x: f64| (x / self.width).floor() as i64;
+        tooth_at(x - half_width)..=tooth_at(x + half_width)
     }
 
-    /// Distance \[m\] of a point outside from tooth `tooth`, and the unit normal from there to the point.
+    /// Distance of a point outside from tooth `tooth`, and the normal there.
     #[inline]
-    pub fn distance(&self, tooth: i64, [x, y]: [f64; 2]) -> (f64, [f64; 2]) {
-        let from = [x - (tooth as f64 * self.width + self.centre[0]), y - self.centre[1]];
-        for side in &self.sides {
-            let out = dot(from, side.normal);
-            if out > 0.0 && dot(from, side.down) > 0.0 {
-                return (out - self.tip_radius, side.normal);
+    pub fn clearance(&self, tooth: i64, point: Vector2<f64>) -> Clearance {
+        let from = point - Vector2::new(tooth as f64 * self.width + self.centre.x, self.centre.y);
+        for Side { down, normal } in &self.sides {
+            let distance = from.dot(normal);
+            if distance > 0.0 && from.dot(down) > 0.0 {
+                return Clearance {
+                    distance: distance - self.tip_radius,
+                    normal: *normal,
+                };
             }
         }
-        let distance = from[0].hypot(from[1]);
-        (distance - self.tip_radius, [from[0] / distance, from[1] / distance])
+        let distance = from.x.hypot(from.y);
+        Clearance {
+            distance: distance - self.tip_radius,
+            normal: from / distance,
+        }
     }
 }
 
-fn check(name: &str, value: f64, least: f64, most: f64, allowed: &str) -> Result<()> {
-    if value.is_finite() && (least..=most).contains(&value) {
+fn check(name: &str, value: f64, range: RangeInclusive<f64>, allowed: &str) -> Result<()> {
+    if range.contains(&value) {
         return Ok(());
     }
     Err(Error::parameter(name, value, allowed, "Give a value in this range."))
@@ -189,10 +187,10 @@ mod tests {
         ] {
             let width = 6e-3;
             let profile = SawtoothProfile::new(width, height, asymmetry, tip_radius).unwrap();
-            let apex = [asymmetry * width - profile.centre[0], height - profile.centre[1]];
+            let apex = Vector2::new(asymmetry * width, height) - profile.centre;
             for side in &profile.sides {
                 assert!(
-                    (dot(apex, side.normal) - tip_radius).abs() < 1e-17,
+                    (apex.dot(&side.normal) - tip_radius).abs() < 1e-17,
                     "{height} {asymmetry}"
                 );
             }
@@ -204,22 +202,22 @@ mod tests {
     fn flat_and_sharp_profiles() {
         let flat = SawtoothProfile::new(6e-3, 0.0, 0.1, 4e-4).unwrap();
         for x in [-1.0, 0.0, 6e-4, 0.3] {
-            let (distance, normal) = flat.distance(0, [x, 2e-3]);
+            let Clearance { distance, normal } = flat.clearance(0, Vector2::new(x, 2e-3));
             assert!((distance - 2e-3).abs() < 1e-18 && normal[0].abs() < 1e-12 && normal[1] == 1.0);
         }
         let sharp = SawtoothProfile::new(6e-3, 4e-3, 0.5, 0.0).unwrap();
-        let (distance, normal) = sharp.distance(2, [15e-3, 5e-3]);
+        let Clearance { distance, normal } = sharp.clearance(2, Vector2::new(15e-3, 5e-3));
         assert!((distance - 1e-3).abs() < 1e-17 && (normal[1] - 1.0).abs() < 1e-12);
     }
 
     #[test]
     fn impossible_shapes_are_refused_by_name() {
-        let told = |w, h, a, s| SawtoothProfile::new(w, h, a, s).unwrap_err().to_string();
-        assert!(told(0.0, 1e-3, 0.1, 0.0).starts_with("tooth.width = 0"));
-        assert!(told(6e-3, -1.0, 0.1, 0.0).starts_with("tooth.height = -1"));
-        assert!(told(6e-3, 1e-3, 1.1, 0.0).starts_with("tooth.asymmetry = 1.1"));
-        assert!(told(6e-3, 1e-3, 0.1, f64::NAN).starts_with("tooth.tip_radius = NaN"));
-        assert!(told(6e-3, 1e-3, 0.1, 4e-3).contains("narrower than its tip"));
-        assert!(told(6e-3, 1e-4, 0.0, 1e-3).contains("touch both sides"));
+        let message = |w, h, a, s| SawtoothProfile::new(w, h, a, s).unwrap_err().to_string();
+        assert!(message(0.0, 1e-3, 0.1, 0.0).starts_with("tooth.width = 0"));
+        assert!(message(6e-3, -1.0, 0.1, 0.0).starts_with("tooth.height = -1"));
+        assert!(message(6e-3, 1e-3, 1.1, 0.0).starts_with("tooth.asymmetry = 1.1"));
+        assert!(message(6e-3, 1e-3, 0.1, f64::NAN).starts_with("tooth.tip_radius = NaN"));
+        assert!(message(6e-3, 1e-3, 0.1, 4e-3).contains("narrower than its tip"));
+        assert!(message(6e-3, 1e-4, 0.0, 1e-3).contains("touch both sides"));
     }
 }

@@ -4,6 +4,8 @@
 //! approaches meets now. Differences of nearly equal numbers appear only where the input itself is as uncertain.
 //! Not here: walls that move (`drive::FirstHit`), what an impact does (`collision`).
 
+use nalgebra::Vector2;
+
 /// Free flight of a disk towards a wall, along the wall's normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flight {
@@ -25,17 +27,15 @@ pub struct Flight {
 /// cancellation for disks far apart. Pairs that part, or pass (D < 0), never meet; pairs that overlap and approach meet
 /// now. Source: P 2.30, F B6.
 #[inline]
-pub fn disk_disk(position: [f64; 2], velocity: [f64; 2], distance: f64) -> f64 {
-    let [x, y] = position;
-    let [vx, vy] = velocity;
-    let approach = -(x * vx + y * vy);
+pub fn disk_disk(position: Vector2<f64>, velocity: Vector2<f64>, distance: f64) -> f64 {
+    let approach = -position.dot(&velocity);
     if approach > 0.0 {
-        let gap = x * x + y * y - distance * distance;
+        let gap = position.norm_squared() - distance * distance;
         if gap <= 0.0 {
             return 0.0;
         }
-        let cross = x * vy - y * vx;
-        let discriminant = (vx * vx + vy * vy) * (distance * distance) - cross * cross;
+        let cross = position.perp(&velocity);
+        let discriminant = velocity.norm_squared() * (distance * distance) - cross * cross;
         if discriminant >= 0.0 {
             return gap / (approach + discriminant.sqrt());
         }
@@ -107,15 +107,16 @@ mod tests {
 
     #[test]
     fn disks_meet_part_or_pass() {
-        assert_eq!(disk_disk([-3.0, 0.0], [2.0, 0.0], 1.0), 1.0);
-        assert_eq!(disk_disk([-3.0, 0.0], [-2.0, 0.0], 1.0), f64::INFINITY);
-        assert_eq!(disk_disk([-3.0, 1.5], [2.0, 0.0], 1.0), f64::INFINITY);
-        assert_eq!(disk_disk([-3.0, 1.0], [2.0, 0.0], 1.0), 1.5); // grazing
-        assert_eq!(disk_disk([-3.0, 0.0], [0.0, 0.0], 1.0), f64::INFINITY);
-        assert_eq!(disk_disk([0.0, 0.0], [1.0, 0.0], 1.0), f64::INFINITY);
-        assert_eq!(disk_disk([1.0 - 1e-16, 0.0], [-1.0, 0.3], 1.0), 0.0);
-        assert_eq!(disk_disk([1.0 - 1e-16, 0.0], [1.0, 0.3], 1.0), f64::INFINITY);
-        assert_eq!(disk_disk([1.0, 0.0], [f64::NAN, 0.3], 1.0), f64::INFINITY);
+        let disk_disk = |position: [f64; 2], velocity: [f64; 2]| disk_disk(position.into(), velocity.into(), 1.0);
+        assert_eq!(disk_disk([-3.0, 0.0], [2.0, 0.0]), 1.0);
+        assert_eq!(disk_disk([-3.0, 0.0], [-2.0, 0.0]), f64::INFINITY);
+        assert_eq!(disk_disk([-3.0, 1.5], [2.0, 0.0]), f64::INFINITY);
+        assert_eq!(disk_disk([-3.0, 1.0], [2.0, 0.0]), 1.5); // grazing
+        assert_eq!(disk_disk([-3.0, 0.0], [0.0, 0.0]), f64::INFINITY);
+        assert_eq!(disk_disk([0.0, 0.0], [1.0, 0.0]), f64::INFINITY);
+        assert_eq!(disk_disk([1.0 - 1e-16, 0.0], [-1.0, 0.3]), 0.0);
+        assert_eq!(disk_disk([1.0 - 1e-16, 0.0], [1.0, 0.3]), f64::INFINITY);
+        assert_eq!(disk_disk([1.0, 0.0], [f64::NAN, 0.3]), f64::INFINITY);
     }
 
     /// Any sizes and signs, as long as their fourth powers are numbers.
@@ -129,7 +130,7 @@ mod tests {
                 for c in &sizes {
                     assert!(wall(*a, *b, *c) >= 0.0);
                     for d in &sizes {
-                        assert!(disk_disk([*a, *b], [*c, *d], 1.0) >= 0.0);
+                        assert!(disk_disk(Vector2::new(*a, *b), Vector2::new(*c, *d), 1.0) >= 0.0);
                     }
                 }
             }
@@ -139,7 +140,7 @@ mod tests {
     /// Far apart the two terms of the printed discriminant agree in all digits but the last few.
     #[test]
     fn distant_disks_keep_their_digits() {
-        let time = disk_disk([-1e8, 0.6], [1.0, 0.0], 1.0);
+        let time = disk_disk(Vector2::new(-1e8, 0.6), Vector2::x(), 1.0);
         assert!((time - (1e8 - 0.8)).abs() < 2e-8);
     }
 
@@ -154,18 +155,18 @@ mod tests {
         };
         let mut met = 0;
         for _ in 0..100_000 {
-            let position = [10.0 * unit() - 5.0, 10.0 * unit() - 5.0];
-            let velocity = [2.0 * unit() - 1.0, 2.0 * unit() - 1.0];
+            let position = Vector2::new(10.0 * unit() - 5.0, 10.0 * unit() - 5.0);
+            let velocity = Vector2::new(2.0 * unit() - 1.0, 2.0 * unit() - 1.0);
             let time = disk_disk(position, velocity, 1.0);
             assert!(time >= 0.0);
-            if position[0].hypot(position[1]) > 1.0 && time < 1e3 {
-                let (x, y) = (position[0] + velocity[0] * time, position[1] + velocity[1] * time);
+            if position.x.hypot(position.y) > 1.0 && time < 1e3 {
+                let there = position + velocity * time;
                 // The grazing ones come within the square root of rounding; all satisfy the equation.
                 assert!(
-                    (x * x + y * y - 1.0).abs() < 1e-13 * (1.0 + time),
+                    (there.norm_squared() - 1.0).abs() < 1e-13 * (1.0 + time),
                     "{position:?} {velocity:?}"
                 );
-                assert!(x * velocity[0] + y * velocity[1] <= 1e-6);
+                assert!(there.dot(&velocity) <= 1e-6);
                 met += 1;
             }
         }

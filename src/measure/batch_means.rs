@@ -127,9 +127,12 @@ mod tests {
             let length = 40_000;
             let runs: Vec<(f64, f64)> = (1..=60).map(|seed| of_series(memory, length, seed)).collect();
             let known = (1.0 / 3.0 / f64::from(length)).sqrt() / (1.0 - memory);
-            let told = (runs.iter().map(|(_, error)| error * error).sum::<f64>() / 60.0).sqrt();
+            let estimated = (runs.iter().map(|(_, error)| error * error).sum::<f64>() / 60.0).sqrt();
             let scatter = (runs.iter().map(|(mean, _)| mean * mean).sum::<f64>() / 60.0).sqrt();
-            assert!((told / known - 1.0).abs() < 0.1, "memory {memory}: {told} for {known}");
+            assert!(
+                (estimated / known - 1.0).abs() < 0.1,
+                "memory {memory}: {estimated} for {known}"
+            );
             assert!(
                 (scatter / known - 1.0).abs() < 0.3,
                 "memory {memory}: {scatter} for {known}"

@@ -1,10 +1,12 @@
 //! Mass and momentum of disks by place and phase of the base: flights in, time averages in boxes out (F Figs 13, 14).
 //!
 //! Accumulated exactly, not sampled: each flight is cut where its parabola leaves a box and where the phase of the base
-//! enters another window, and every piece adds its duration and its way to one sum. So in each window the masses of all
+//! enters another window, and every piece adds its duration and its displacement to one sum. So in each window the masses of all
 //! boxes add up to the mass of the disks, and the momenta of all windows to the transport, to rounding.
 
 use std::f64::consts::TAU;
+
+use nalgebra::{Vector2, Vector3};
 
 use crate::drive::{BoundedDrive, Sine};
 use crate::engine::event_driven::{Body, Observer};
@@ -38,7 +40,7 @@ pub struct Cell {
     /// Mass of the disks with their centre in the box \[kg\].
     pub mass: f64,
     /// Their momentum \[kg.m/s\].
-    pub momentum: [f64; 2],
+    pub momentum: Vector2<f64>,
 }
 
 /// Average over all phases of what is in a row of boxes.
@@ -69,7 +71,7 @@ pub struct FlowFields {
     /// Start of the averages \[s\].
     start: f64,
     /// Mass times duration and momentum times duration, by row, column and window.
-    sums: Vec<[f64; 3]>,
+    sums: Vec<Vector3<f64>>,
 }
 
 impl FlowFields {
@@ -78,7 +80,7 @@ impl FlowFields {
     ///
     /// # Errors
     /// A sine without periods, more boxes than memory should hold.
-    pub fn new(grid: Grid, masses: Vec<f64>, gravity: f64, sine: Sine, (start, epoch): (f64, f64)) -> Result<Self> {
+    pub fn new(grid: Grid, masses: Vec<f64>, gravity: f64, sine: Sine, start: f64, epoch: f64) -> Result<Self> {
         if sine.frequency <= 0.0 {
             return Err(Error::parameter(
                 "drive.frequency",
@@ -109,7 +111,7 @@ impl FlowFields {
             epoch,
             local: sine.counted_from(epoch),
             start,
-            sums: vec![[0.0; 3]; sums as usize],
+            sums: vec![Vector3::zeros(); sums as usize],
         })
     }
 
@@ -142,14 +144,18 @@ impl FlowFields {
         });
         all.map(move |(phase, row, column)| {
             let duration = durations[phase as usize];
-            let [mass, along, up] = self.sums[self.place(row, column, phase as usize)];
-            let average = |sum: f64| if duration > 0.0 { sum / duration } else { 0.0 };
+            let sum = self.sums[self.index(row, column, phase as usize)];
+            let average = if duration > 0.0 {
+                sum / duration
+            } else {
+                Vector3::zeros()
+            };
             Cell {
                 phase,
                 x: (column as f64 + 0.5) * side,
                 y: self.height(row),
-                mass: average(mass),
-                momentum: [average(along), average(up)],
+                mass: average.x,
+                momentum: average.yz(),
             }
         })
     }
@@ -158,10 +164,9 @@ impl FlowFields {
     pub fn layers(&self, end: f64) -> impl Iterator<Item = Layer> {
         let time = end - self.start;
         (0..self.occupied()).map(move |row| {
-            let [first, next] = [row, row + 1].map(|row| self.place(row, 0, 0));
-            let (mass, momentum) = self.sums[first..next]
-                .iter()
-                .fold((0.0, 0.0), |(mass, momentum), sum| (mass + sum[0], momentum + sum[1]));
+            let [first, next] = [row, row + 1].map(|row| self.index(row, 0, 0));
+            let sum: Vector3<f64> = self.sums[first..next].iter().sum();
+            let (mass, momentum) = (sum.x, sum.y);
             Layer {
                 y: self.height(row),
                 mass: mass / time,
@@ -172,8 +177,8 @@ impl FlowFields {
 
     /// Rows up to the highest with any mass.
     fn occupied(&self) -> usize {
-        let row = self.place(1, 0, 0);
-        let highest = self.sums.iter().rposition(|sum| sum[0] > 0.0);
+        let row = self.index(1, 0, 0);
+        let highest = self.sums.iter().rposition(|sum| sum.x > 0.0);
         highest.map_or(0, |last| last / row + 1)
     }
 
@@ -182,37 +187,38 @@ impl FlowFields {
     }
 
     #[inline]
-    fn place(&self, row: usize, column: usize, phase: usize) -> usize {
+    fn index(&self, row: usize, column: usize, phase: usize) -> usize {
         (row * self.grid.columns as usize + column) * self.grid.phases as usize + phase
     }
 
     #[inline]
-    fn add(&mut self, [column, row, window]: [i64; 3], amounts: [f64; 3]) {
+    fn add(&mut self, [column, row, window]: [i64; 3], amount: Vector3<f64>) {
         let row = (row - self.lowest).clamp(0, self.rows as i64 - 1) as usize;
         let column = column.rem_euclid(i64::from(self.grid.columns)) as usize;
         let phase = window.rem_euclid(i64::from(self.grid.phases)) as usize;
-        let place = self.place(row, column, phase);
-        let sum = &mut self.sums[place];
-        (0..3).for_each(|index| sum[index] += amounts[index]);
+        let index = self.index(row, column, phase);
+        self.sums[index] += amount;
     }
 
-    /// When the flight next leaves a row, counted from its start, and whether upwards: only while it is `rising`.
+    /// Time \[s\] from its start at which the flight next leaves a row, and by how many rows upwards: 1 only while it is
+    /// `rising`, else -1.
     #[inline]
     fn leaves_row(&self, body: &Body, row: i64, rising: bool) -> (f64, i64) {
         let (gravity, side) = (self.gravity, self.grid.side);
+        let (y, vy) = (body.position.y, body.velocity.y);
         if rising {
-            let rise = (row + 1) as f64 * side - body.y;
-            let squared = body.vy * body.vy - 2.0 * gravity * rise;
+            let rise = (row + 1) as f64 * side - y;
+            let squared = vy * vy - 2.0 * gravity * rise;
             if squared >= 0.0 {
-                return (2.0 * rise / (body.vy + squared.sqrt()), 1);
+                return (2.0 * rise / (vy + squared.sqrt()), 1);
             }
         }
-        let drop = body.y - row as f64 * side;
-        let root = (body.vy * body.vy + 2.0 * gravity * drop).max(0.0).sqrt();
-        let time = if body.vy < 0.0 {
-            2.0 * drop / (root - body.vy)
+        let drop = y - row as f64 * side;
+        let root = (vy * vy + 2.0 * gravity * drop).max(0.0).sqrt();
+        let time = if vy < 0.0 {
+            2.0 * drop / (root - vy)
         } else {
-            (body.vy + root) / gravity
+            (vy + root) / gravity
         };
         (time, -1)
     }
@@ -228,31 +234,29 @@ impl Observer for FlowFields {
         let (mass, side, gravity) = (self.masses[disk as usize], self.grid.side, self.gravity);
         let phases = f64::from(self.grid.phases);
         let (frequency, lead) = (self.local.frequency, self.local.phase / TAU);
-        let height = from.y + now * (from.vy - 0.5 * gravity * now);
-        let mut column = ((from.x + now * from.vx) / side).floor() as i64;
+        let [vx, vy] = from.velocity.into();
+        let height = from.position.y + now * (vy - 0.5 * gravity * now);
+        let mut column = ((from.position.x + now * vx) / side).floor() as i64;
         let mut row = (height / side).floor() as i64;
         let mut window = (phases * (frequency * (from.time + now) + lead)).floor() as i64;
-        let step = from.vx.signum() as i64;
-        // Whoever has left a row downwards never leaves one upwards: at the top of an edge rounding could go to and fro.
-        let mut rising = now * gravity < from.vy;
+        let step = vx.signum() as i64;
+        // A flight that has left a row downwards never leaves one upwards: at the top of an edge rounding could go to and
+        // fro.
+        let mut rising = now * gravity < vy;
         while now < end {
-            // Indices go step by step, never back to places: a piece that rounding makes empty adds nothing.
+            // Indices go step by step, never back to positions: a piece that rounding makes empty adds nothing.
             let edge = (column + i64::from(step > 0)) as f64 * side;
-            let across = if from.vx == 0.0 {
+            let across = if vx == 0.0 {
                 f64::INFINITY
             } else {
-                (edge - from.x) / from.vx
+                (edge - from.position.x) / vx
             };
             let (vertical, up) = self.leaves_row(from, row, rising);
             let phase = ((window + 1) as f64 / phases - lead) / frequency - from.time;
             let next = end.min(across).min(vertical).min(phase).max(now);
             let lasts = next - now;
             let fall = 0.5 * gravity * (now + next);
-            let amount = mass * lasts;
-            self.add(
-                [column, row, window],
-                [amount, amount * from.vx, amount * (from.vy - fall)],
-            );
+            self.add([column, row, window], mass * lasts * Vector3::new(1.0, vx, vy - fall));
             if next >= end {
                 return;
             }
@@ -268,7 +272,7 @@ impl Observer for FlowFields {
         }
     }
 
-    fn shift(&mut self, seconds: f64) {
+    fn shift_origin(&mut self, seconds: f64) {
         self.epoch += seconds;
         self.local = self.sine.counted_from(self.epoch);
     }
@@ -277,6 +281,7 @@ impl Observer for FlowFields {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::event_driven::Partner;
     use rand::{RngExt, SeedableRng};
 
     const SINE: Sine = Sine {
@@ -293,15 +298,13 @@ mod tests {
 
     fn body(x: f64, y: f64, vx: f64, vy: f64, time: f64) -> Body {
         Body {
-            x,
-            y,
-            vx,
-            vy,
+            position: Vector2::new(x, y),
+            velocity: Vector2::new(vx, vy),
             time,
             radius: 1e-3,
             next_time: 0.0,
             impacts: 0,
-            partner: 0,
+            next_partner: Partner::Shell.into(),
         }
     }
 
@@ -311,7 +314,7 @@ mod tests {
         let mut random = rand_pcg::Pcg64::seed_from_u64(5);
         let epoch = 64.0;
         for _ in 0..100 {
-            let mut fields = FlowFields::new(GRID, vec![2.0], 9.81, SINE, (epoch + 1.0, epoch)).unwrap();
+            let mut fields = FlowFields::new(GRID, vec![2.0], 9.81, SINE, epoch + 1.0, epoch).unwrap();
             let mut draw = |low: f64, high: f64| random.random_range(low..high);
             let from = body(
                 draw(-0.01, 0.07),
@@ -325,20 +328,16 @@ mod tests {
             let samples = 40_000_u32;
             let begin = from.time.max(1.0);
             let interval = (until - begin) / f64::from(samples);
-            let mut expected = vec![[0.0; 3]; fields.sums.len()];
+            let mut expected = vec![Vector3::zeros(); fields.sums.len()];
             for sample in 0..samples {
                 let ahead = begin + (f64::from(sample) + 0.5) * interval - from.time;
-                let [x, y] = [
-                    from.x + ahead * from.vx,
-                    from.y + ahead * (from.vy - 0.5 * 9.81 * ahead),
-                ];
+                let (position, velocity) = from.motion_after(ahead, 9.81);
                 let phase = SINE.frequency * (epoch + from.time + ahead) + SINE.phase / TAU;
-                let column = (x / 1e-3).floor().rem_euclid(6.0) as usize;
-                let row = ((y / 1e-3).floor() as i64 - fields.lowest) as usize;
+                let column = (position.x / 1e-3).floor().rem_euclid(6.0) as usize;
+                let row = ((position.y / 1e-3).floor() as i64 - fields.lowest) as usize;
                 let window = (6.0 * phase).floor().rem_euclid(6.0) as usize;
-                let place = fields.place(row, column, window);
-                let amounts = [2.0, 2.0 * from.vx, 2.0 * (from.vy - 9.81 * ahead)];
-                (0..3).for_each(|index| expected[place][index] += interval * amounts[index]);
+                let index = fields.index(row, column, window);
+                expected[index] += interval * 2.0 * Vector3::new(1.0, velocity.x, velocity.y);
             }
             // A box is entered and left at most a few times in a flight.
             for (sum, expected) in fields.sums.iter().zip(&expected) {
@@ -364,21 +363,19 @@ mod tests {
             body(3e-3, 20e-3, 0.3, -rise, 0.0),
             body(-0.0, 20e-3, 0.1, 5e-324, 0.0),
         ] {
-            let mut fields = FlowFields::new(GRID, vec![1.0], 9.81, SINE, (0.0, 0.0)).unwrap();
+            let mut fields = FlowFields::new(GRID, vec![1.0], 9.81, SINE, 0.0, 0.0).unwrap();
             fields.flight(0, &from, 0.04);
             fields.flight(0, &from, -1.0);
-            let sums = fields.sums.iter().fold([0.0; 3], |sum, cell| {
-                [sum[0] + cell[0], sum[1] + cell[1], sum[2] + cell[2]]
-            });
+            let sums: Vector3<f64> = fields.sums.iter().sum();
             assert!((sums[0] - 0.04).abs() < 1e-15, "{from:?}: {sums:?}");
-            assert!((sums[1] - 0.04 * from.vx).abs() < 1e-15);
-            assert!((sums[2] - 0.04 * (from.vy - 0.02 * 9.81)).abs() < 1e-15);
+            assert!((sums[1] - 0.04 * from.velocity.x).abs() < 1e-15);
+            assert!((sums[2] - 0.04 * (from.velocity.y - 0.02 * 9.81)).abs() < 1e-15);
         }
     }
 
     #[test]
     fn durations_of_windows_add_up_and_are_even_over_periods() {
-        let fields = FlowFields::new(GRID, vec![1.0], 9.81, SINE, (0.3, 0.0)).unwrap();
+        let fields = FlowFields::new(GRID, vec![1.0], 9.81, SINE, 0.3, 0.0).unwrap();
         let durations = fields.durations(0.3 + 40.0 * 7.0);
         assert!(durations.iter().all(|duration| (duration - 280.0 / 6.0).abs() < 1e-11));
         let durations = fields.durations(0.3 + 0.047);
@@ -387,14 +384,14 @@ mod tests {
 
     #[test]
     fn what_has_no_periods_or_too_many_boxes_is_refused_by_name() {
-        let told = |grid: Grid, sine: Sine| {
-            FlowFields::new(grid, vec![], 9.81, sine, (0.0, 0.0))
+        let message = |grid: Grid, sine: Sine| {
+            FlowFields::new(grid, vec![], 9.81, sine, 0.0, 0.0)
                 .unwrap_err()
                 .to_string()
         };
         let still = Sine { frequency: 0.0, ..SINE };
-        assert!(told(GRID, still).starts_with("drive.frequency = 0 Hz"));
+        assert!(message(GRID, still).starts_with("drive.frequency = 0 Hz"));
         let fine = Grid { side: 1e-7, ..GRID };
-        assert!(told(fine, SINE).starts_with("boxes times phase windows"));
+        assert!(message(fine, SINE).starts_with("boxes times phase windows"));
     }
 }

@@ -30,7 +30,7 @@ impl Ord for Candidate {
         let key = |place: &Place| (place.left, place.right);
         self.rank
             .cmp(&other.rank)
-            .then(self.place.x.total_cmp(&other.place.x))
+            .then(self.place.centre.x.total_cmp(&other.place.centre.x))
             .then_with(|| key(&self.place).cmp(&key(&other.place)))
     }
 }
@@ -110,7 +110,7 @@ impl Candidates {
                 return Some(first.place);
             }
             bounds.push(Reverse(first));
-            let elements = front.near(first.place.x, first.place.y, radius, radius);
+            let elements = front.near(first.place.centre, radius, radius);
             best = lower(best, lowest_among(front, &elements, radius, tie));
         }
         queue.places.extend(bounds);
@@ -123,7 +123,7 @@ impl Candidates {
         let disk = *front.disk(index);
         for class in 0..self.queues.len() {
             let radius = self.queues[class].radius;
-            for other in front.near(disk.x, disk.y, disk.radius + radius, radius) {
+            for other in front.near(disk.centre(), disk.radius + radius, radius) {
                 let (left, right) = match other {
                     Element::LeftWall => (other, Element::Disk(index)),
                     Element::Disk(neighbour) if front.disk(neighbour).x < disk.x => (other, Element::Disk(index)),
@@ -175,7 +175,7 @@ fn lower(a: Option<Candidate>, b: Option<Candidate>) -> Option<Candidate> {
 /// Height of the lowest point of the disk in units of the tie.
 fn rank(place: &Place, radius: f64, tie: f64) -> u64 {
     // Negative by rounding becomes 0.
-    ((place.y - radius) / tie).round() as u64
+    ((place.centre.y - radius) / tie).round() as u64
 }
 
 /// The lowest place found by trying every pair of the front: slow, for tests.

@@ -62,10 +62,10 @@ impl Columns {
         }
     }
 
-    /// True if `wanted` holds for some disk whose rim may come within `reach` \[m\] of `x`.
-    pub(super) fn any_near(&self, x: f64, reach: f64, mut wanted: impl FnMut(u32) -> bool) -> bool {
+    /// True if `wanted` holds for some disk whose rim may come within a distance \[m\] of `x`.
+    pub(super) fn any_near(&self, x: f64, distance: f64, mut wanted: impl FnMut(u32) -> bool) -> bool {
         self.levels.iter().any(|level| {
-            let span = reach + level.largest;
+            let span = distance + level.largest;
             let first = level.index(x - span - self.left);
             let last = level.index(x + span - self.left);
             level.columns[first..=last].iter().flatten().any(|&index| wanted(index))

@@ -4,6 +4,8 @@
 //! of the front and above it is clear of every disk ever placed, since neighbours in the chain touch. Hence nothing
 //! below the front is kept. Not here: which place is the lowest (`candidates`).
 
+use nalgebra::Vector2;
+
 use super::columns::Columns;
 use super::resting::{above, beside, on_disks, slack};
 use crate::geometry::Disk;
@@ -32,8 +34,7 @@ impl Element {
 /// Centre of a disk that touches `left` and `right`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
-    pub x: f64,
-    pub y: f64,
+    pub centre: Vector2<f64>,
     pub left: Element,
     pub right: Element,
 }
@@ -103,23 +104,23 @@ impl Front {
         self.links[element.slot()].map_or(Element::LeftWall, |links| links.previous)
     }
 
-    /// Front elements that a disk of `radius` centred within `reach` \[m\] of (x, y) may touch.
-    pub(super) fn near(&self, x: f64, y: f64, reach: f64, radius: f64) -> Vec<Element> {
+    /// Front elements that a disk of `radius` centred within a distance \[m\] of a point may touch.
+    pub(super) fn near(&self, point: Vector2<f64>, distance: f64, radius: f64) -> Vec<Element> {
         let mut found = Vec::new();
-        let span = reach + radius;
-        if x - span <= -self.half_width {
+        let span = distance + radius;
+        if point.x - span <= -self.half_width {
             found.push(Element::LeftWall);
         }
-        if y <= span && self.contains(Element::Floor) {
+        if point.y <= span && self.contains(Element::Floor) {
             found.push(Element::Floor);
         }
-        if x + span >= self.half_width {
+        if point.x + span >= self.half_width {
             found.push(Element::RightWall);
         }
-        self.columns.any_near(x, span, |index| {
+        self.columns.any_near(point.x, span, |index| {
             let disk = self.disk(index);
-            let (dx, dy, limit) = (disk.x - x, disk.y - y, (disk.radius + span) * (1.0 + 1e-9));
-            if dx * dx + dy * dy <= limit * limit {
+            let limit = (disk.radius + span) * (1.0 + 1e-9);
+            if (disk.centre() - point).norm_squared() <= limit * limit {
                 found.push(Element::Disk(index));
             }
             false
@@ -131,23 +132,23 @@ impl Front {
     /// two supports. Says nothing about third elements.
     pub(super) fn resting_place(&self, left: Element, right: Element, radius: f64) -> Option<Place> {
         let at_left = radius - self.half_width;
-        let (x, y) = match (left, right) {
-            (Element::LeftWall, Element::Floor) => (at_left, radius),
-            (Element::LeftWall, Element::Disk(b)) => (at_left, above(self.disk(b), at_left, radius)?),
-            (Element::Disk(a), Element::RightWall) => (-at_left, above(self.disk(a), -at_left, radius)?),
-            (Element::Disk(a), Element::Floor) => (beside(self.disk(a), radius)?, radius),
+        let centre = match (left, right) {
+            (Element::LeftWall, Element::Floor) => Vector2::new(at_left, radius),
+            (Element::LeftWall, Element::Disk(b)) => Vector2::new(at_left, above(self.disk(b), at_left, radius)?),
+            (Element::Disk(a), Element::RightWall) => Vector2::new(-at_left, above(self.disk(a), -at_left, radius)?),
+            (Element::Disk(a), Element::Floor) => Vector2::new(beside(self.disk(a), radius)?, radius),
             (Element::Disk(a), Element::Disk(b)) if self.disk(a).x < self.disk(b).x => {
                 on_disks(self.disk(a), self.disk(b), radius)?
             }
             _ => return None,
         };
-        let slack = slack(radius, x, y);
-        let inside = x.abs() <= self.half_width - radius + slack && y >= radius - slack;
+        let slack = slack(radius, centre);
+        let inside = centre.x.abs() <= self.half_width - radius + slack && centre.y >= radius - slack;
         let held = |element: Element, side: f64| match element {
-            Element::Disk(index) => side * (x - self.disk(index).x) >= -slack,
+            Element::Disk(index) => side * (centre.x - self.disk(index).x) >= -slack,
             _ => true,
         };
-        (inside && held(left, 1.0) && held(right, -1.0)).then_some(Place { x, y, left, right })
+        (inside && held(left, 1.0) && held(right, -1.0)).then_some(Place { centre, left, right })
     }
 
     /// True if a disk of `radius` can be put at `place`: both supports in the front, no overlap, above the front.
@@ -159,12 +160,11 @@ impl Front {
     }
 
     fn is_clear(&self, place: &Place, radius: f64) -> bool {
-        !self.columns.any_near(place.x, radius, |index| {
+        !self.columns.any_near(place.centre.x, radius, |index| {
             let disk = self.disk(index);
-            let reach = disk.radius + radius;
-            let (dx, dy) = (disk.x - place.x, disk.y - place.y);
-            let allowed = reach - slack(reach, place.x, place.y);
-            dx * dx + dy * dy < allowed * allowed
+            let radius_sum = disk.radius + radius;
+            let allowed = radius_sum - slack(radius_sum, place.centre);
+            (disk.centre() - place.centre).norm_squared() < allowed * allowed
         })
     }
 
@@ -175,12 +175,12 @@ impl Front {
     fn is_above(&self, place: &Place, radius: f64) -> bool {
         let mut outline = Outline::at(place, self.half_width);
         let (mut ahead, mut behind) = (place.left, place.left);
-        outline.start(place.left, self.points(place.left));
+        outline.start(place.left, self.centre(place.left));
         loop {
             let from = ahead;
             ahead = self.next(ahead);
             behind = self.previous(behind);
-            outline.pass(from, ahead, self.points(from), self.points(ahead));
+            outline.pass(from, ahead, self.centre(from), self.centre(ahead));
             if ahead == place.right {
                 return outline.closed(place.right) >= -1e-9 * radius * radius;
             }
@@ -191,9 +191,9 @@ impl Front {
     }
 
     /// Centre of a disk; nothing for walls and floor.
-    fn points(&self, element: Element) -> Option<(f64, f64)> {
+    fn centre(&self, element: Element) -> Option<Vector2<f64>> {
         match element {
-            Element::Disk(index) => Some((self.disk(index).x, self.disk(index).y)),
+            Element::Disk(index) => Some(self.disk(index).centre()),
             _ => None,
         }
     }
@@ -211,11 +211,7 @@ impl Front {
             covered = next;
         }
         let index = self.disks.len() as u32;
-        let disk = Disk {
-            x: place.x,
-            y: place.y,
-            radius,
-        };
+        let disk = Disk::new(place.centre, radius);
         self.disks.push(disk);
         self.columns.add(&disk, index);
         self.links.push(Some(Links {
@@ -234,60 +230,61 @@ impl Front {
 
 /// Twice the signed area of a polygon, seen from the place so that nothing cancels.
 struct Outline {
-    place: (f64, f64),
+    place: Vector2<f64>,
     half_width: f64,
-    last: (f64, f64),
+    last: Vector2<f64>,
     area: f64,
 }
 
 impl Outline {
     fn at(place: &Place, half_width: f64) -> Self {
         Self {
-            place: (place.x, place.y),
+            place: place.centre,
             half_width,
-            last: (place.x, place.y),
+            last: place.centre,
             area: 0.0,
         }
     }
 
-    fn to(&mut self, x: f64, y: f64) {
-        let (ax, ay) = (self.last.0 - self.place.0, self.last.1 - self.place.1);
-        let (bx, by) = (x - self.place.0, y - self.place.1);
-        self.area += ax * by - ay * bx;
-        self.last = (x, y);
+    fn to(&mut self, corner: Vector2<f64>) {
+        self.area += (self.last - self.place).perp(&(corner - self.place));
+        self.last = corner;
     }
 
     /// First corner: the left support, or the point of the left wall at the height of the place.
-    fn start(&mut self, left: Element, centre: Option<(f64, f64)>) {
+    fn start(&mut self, left: Element, centre: Option<Vector2<f64>>) {
         match centre {
-            Some((x, y)) => self.to(x, y),
-            None if left == Element::LeftWall => self.to(-self.half_width, self.place.1),
+            Some(centre) => self.to(centre),
+            None if left == Element::LeftWall => self.to(Vector2::new(-self.half_width, self.place.y)),
             None => {}
         }
     }
 
     /// From one element of the chain to the next; down the left wall, along the floor, up to the right wall.
-    fn pass(&mut self, from: Element, to: Element, from_centre: Option<(f64, f64)>, to_centre: Option<(f64, f64)>) {
+    fn pass(&mut self, from: Element, to: Element, from_centre: Option<Vector2<f64>>, to_centre: Option<Vector2<f64>>) {
+        let height = |centre: Option<Vector2<f64>>| centre.map_or(0.0, |centre| centre.y);
         if from == Element::LeftWall {
-            self.to(-self.half_width, to_centre.map_or(0.0, |centre| centre.1));
+            self.to(Vector2::new(-self.half_width, height(to_centre)));
         }
         match (to, to_centre) {
-            (_, Some((x, y))) => self.to(x, y),
-            (Element::Floor, _) => self.to(from_centre.map_or(-self.half_width, |centre| centre.0), 0.0),
-            (Element::RightWall, _) => self.to(self.half_width, from_centre.map_or(0.0, |centre| centre.1)),
+            (_, Some(centre)) => self.to(centre),
+            (Element::Floor, _) => {
+                let x = from_centre.map_or(-self.half_width, |centre| centre.x);
+                self.to(Vector2::new(x, 0.0));
+            }
+            (Element::RightWall, _) => self.to(Vector2::new(self.half_width, height(from_centre))),
             _ => {}
         }
     }
 
     /// Last corner at the right support, then back to the place.
     fn closed(mut self, right: Element) -> f64 {
-        let (x, y) = self.place;
         match right {
-            Element::Floor => self.to(x, 0.0),
-            Element::RightWall => self.to(self.half_width, y),
+            Element::Floor => self.to(Vector2::new(self.place.x, 0.0)),
+            Element::RightWall => self.to(Vector2::new(self.half_width, self.place.y)),
             _ => {}
         }
-        self.to(x, y);
+        self.to(self.place);
         self.area
     }
 }

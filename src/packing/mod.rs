@@ -8,7 +8,7 @@
 //! above the floor; equal input gives equal bits on every machine (only `+ - * /` and square roots are used).
 //! Not here: settling under gravity, which the engines do.
 //!
-//! Source: Peraza-Mues 2018, chapter 2.1 and eqs 2.1-2.6 with the signs corrected: the upper root of 2.3, 2.4 holds for
+//! Source: P, chapter 2.1 and eqs 2.1-2.6 with the signs corrected: the upper root of 2.3, 2.4 holds for
 //! `a` left of `b`; in 2.5, 2.6 the upper sign is for the left wall and for a floor with the disk on its left.
 
 mod candidates;
@@ -35,7 +35,7 @@ const WIDEST: f64 = 1e8;
 /// smallest radius count as equally low. "Lowest" is exact for up to 16 different radii; for more it is the lowest
 /// place among the neighbourhoods that a slightly smaller disk can reach.
 ///
-/// No disks give no packing. Cost is near linear in the number of disks, since only the front is ever looked at: on one
+/// No disks give no packing. Cost is near linear in the number of disks, since only the front is searched: on one
 /// core of a shared x86-64 machine (release, any x86-64) 100,000 disks took 0.17 s for three radii, 0.75 s for radii
 /// spread from 1.5 to 2.5 cm in a square box, 2.1 s for the same in a box three layers deep, 1.4 s for a ratio of 100.
 ///

@@ -33,7 +33,7 @@ pub enum RadiusDistribution {
 }
 
 impl Default for RadiusDistribution {
-    /// Thirds of 1.5, 2.0 and 2.5 cm, as in Peraza-Mues 2018, chapter 2.4.1.
+    /// Thirds of 1.5, 2.0 and 2.5 cm, as in P, chapter 2.4.1.
     fn default() -> Self {
         let classes = [0.015, 0.020, 0.025].map(|radius| RadiusClass { radius, parts: 1 });
         Self::Classes(classes.to_vec())

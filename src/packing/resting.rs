@@ -3,48 +3,52 @@
 //! Distances that are short of a contact by no more than [`CONTACT_TOLERANCE`] count as touching, so that boxes and rows
 //! of exactly so many diameters fill as they do on paper.
 
-use crate::geometry::Disk;
+use nalgebra::Vector2;
+
+use crate::geometry::{Disk, clockwise};
 
 /// Gap or overlap that counts as touch, as a part of the contact distance.
 pub(super) const CONTACT_TOLERANCE: f64 = 1e-12;
 
-/// Length \[m\] that counts as nothing for a contact at distance `reach` \[m\] around the point (x, y).
-pub(super) fn slack(reach: f64, x: f64, y: f64) -> f64 {
-    CONTACT_TOLERANCE * reach + 4.0 * f64::EPSILON * (x.abs() + y.abs())
+/// Length \[m\] that counts as nothing for a contact at a distance \[m\] around a point.
+pub(super) fn slack(distance: f64, point: Vector2<f64>) -> f64 {
+    CONTACT_TOLERANCE * distance + 4.0 * f64::EPSILON * (point.x.abs() + point.y.abs())
 }
 
 /// Centre of a disk of `radius` on top of `a` and `b`, `a` left of `b` (eqs 2.3, 2.4); none if they are too far apart.
 ///
 /// In this form both distances are met to the rounding of the coordinates: to 1.2e-13 of the contact distance at a ratio
 /// of radii of 1e8, where a Newton step on top gains a factor of two, and to a few 1e-16 at ordinary ratios.
-pub(super) fn on_disks(a: &Disk, b: &Disk, radius: f64) -> Option<(f64, f64)> {
-    let (dx, dy) = (b.x - a.x, b.y - a.y);
-    let distance = (dx * dx + dy * dy).sqrt(); // not hypot, whose last bit depends on the machine
-    let (reach_a, reach_b) = (a.radius + radius, b.radius + radius);
-    let reach = reach_a + reach_b;
-    let radii = a.radius - b.radius;
-    let spare = reach - distance;
-    if distance <= radii.abs() || spare < -slack(reach, a.x, a.y) {
+pub(super) fn on_disks(a: &Disk, b: &Disk, radius: f64) -> Option<Vector2<f64>> {
+    let separation = b.centre() - a.centre();
+    let distance = separation.norm(); // not hypot, whose last bit depends on the machine
+    let (sum_a, sum_b) = (a.radius + radius, b.radius + radius);
+    let widest = sum_a + sum_b;
+    let difference = a.radius - b.radius;
+    let spare = widest - distance;
+    if distance <= difference.abs() || spare < -slack(widest, a.centre()) {
         return None;
     }
     // (L^2 + R_ia^2 - R_ib^2) / (2 L), written with the small spare so that nothing cancels.
-    let along = reach_a - spare * (distance - radii) / (2.0 * distance);
-    let height_squared = spare.max(0.0) * (reach + distance) * (distance - radii) * (distance + radii);
+    let along = sum_a - spare * (distance - difference) / (2.0 * distance);
+    let height_squared = spare.max(0.0) * (widest + distance) * (distance - difference) * (distance + difference);
     let height = height_squared.max(0.0).sqrt() / (2.0 * distance);
-    let (ux, uy) = (dx / distance, dy / distance);
-    Some((a.x + along * ux - height * uy, a.y + along * uy + height * ux))
+    let direction = separation / distance;
+    Some(a.centre() + along * direction - height * clockwise(&direction))
 }
 
 /// Height of a disk of `radius` whose centre is at `x` and that lies on `support` (eqs 2.5, 2.6 for an upright wall).
 pub(super) fn above(support: &Disk, x: f64, radius: f64) -> Option<f64> {
-    let reach = support.radius + radius;
-    leg(reach, x - support.x, slack(reach, x, support.y)).map(|height| support.y + height)
+    let radius_sum = support.radius + radius;
+    let slack = slack(radius_sum, Vector2::new(x, support.y));
+    leg(radius_sum, x - support.x, slack).map(|height| support.y + height)
 }
 
 /// Position of a disk of `radius` on the floor, to the right of `neighbour` and touching it (eqs 2.5, 2.6, floor).
 pub(super) fn beside(neighbour: &Disk, radius: f64) -> Option<f64> {
-    let reach = neighbour.radius + radius;
-    leg(reach, neighbour.y - radius, slack(reach, neighbour.x, neighbour.y)).map(|offset| neighbour.x + offset)
+    let radius_sum = neighbour.radius + radius;
+    let slack = slack(radius_sum, neighbour.centre());
+    leg(radius_sum, neighbour.y - radius, slack).map(|offset| neighbour.x + offset)
 }
 
 /// The other leg of a right triangle; none if `leg` is longer than `hypotenuse` by more than `slack`.
@@ -72,24 +76,16 @@ mod tests {
                         let (a, b) = (1.0, ratio);
                         let distance = (a + b) + 2.0 * size * closeness;
                         let (sine, cosine) = degrees.to_radians().sin_cos();
-                        let a = Disk {
-                            x: 0.1,
-                            y: 0.2,
-                            radius: a,
-                        };
-                        let b = Disk {
-                            x: a.x + distance * cosine,
-                            y: a.y + distance * sine,
-                            radius: b,
-                        };
-                        let (x, y) = on_disks(&a, &b, size).unwrap();
-                        let disk = Disk { x, y, radius: size };
-                        let scale = x.abs() + y.abs() + b.x.abs() + b.y.abs();
+                        let a = Disk::new(Vector2::new(0.1, 0.2), a);
+                        let b = Disk::new(a.centre() + distance * Vector2::new(cosine, sine), b);
+                        let centre = on_disks(&a, &b, size).unwrap();
+                        let disk = Disk::new(centre, size);
+                        let scale = centre.x.abs() + centre.y.abs() + b.x.abs() + b.y.abs();
                         for other in [&a, &b] {
-                            let reach = other.radius + size;
-                            worst = worst.max(gap(&disk, other).abs() / (reach + scale));
+                            let radius_sum = other.radius + size;
+                            worst = worst.max(gap(&disk, other).abs() / (radius_sum + scale));
                         }
-                        let side = (y - a.y) * (b.x - a.x) - (x - a.x) * (b.y - a.y);
+                        let side = (b.centre() - a.centre()).perp(&(centre - a.centre()));
                         assert!(
                             side >= -1e-12 * distance * (a.radius + size),
                             "below the chord: {disk:?}"

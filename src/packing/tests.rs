@@ -11,12 +11,12 @@ fn compare_with_exhaustion(radii: &[f64], width: f64) -> (usize, f64) {
         let place = candidates.lowest(&front, radius).unwrap();
         let (reference, _) = lowest_by_exhaustion(&front, radius, smallest).unwrap();
         assert!(
-            place.y >= reference.y - 2e-9 * smallest,
+            place.centre.y >= reference.centre.y - 2e-9 * smallest,
             "below the lowest place: {place:?}, {reference:?}"
         );
-        if place.y > reference.y + 2e-9 * smallest {
+        if place.centre.y > reference.centre.y + 2e-9 * smallest {
             missed += 1;
-            worst = worst.max((place.y - reference.y) / radius);
+            worst = worst.max((place.centre.y - reference.centre.y) / radius);
         }
         let index = front.put(place, radius);
         candidates.add_around(&front, index);

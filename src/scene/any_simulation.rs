@@ -1,13 +1,11 @@
-//! A simulation whose scene is named at run time: the one place where a scene stands behind a pointer.
+//! A simulation whose scene is named at run time.
 //!
 //! Needs: names from the [`catalogue`](super::catalogue). Guarantees: the bits of the [`Simulation`] of that scene; one
 //! indirect call for each step, none inside. Programs that know their scene take [`Simulation`] and compile no other.
 
 use std::fmt;
 
-use super::catalogue::{Visitor, with_scene};
-use super::{Causality, Scene, Simulation, Value, Values};
-use crate::error::{Error, Result};
+use super::{DynSimulation, Error, Model, Result, Simulation, StructuralParameters, Value, Variable, catalogue};
 
 /// Which scene, by name. What is left out is the scene's first: `jostle describe` and the README list them.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -48,7 +46,7 @@ impl<'a> Selection<'a> {
 /// assert_eq!(later.real("disk.angle[1]")?, packing.real("disk.angle[1]")?);
 /// # jostle::Result::Ok(())
 /// ```
-pub struct AnySimulation(Box<dyn Run>);
+pub struct AnySimulation(Box<dyn DynSimulation>);
 
 impl fmt::Debug for AnySimulation {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -63,13 +61,28 @@ impl AnySimulation {
     /// # Errors
     /// A scene, engine, drive or disk count that does not exist, a name or a value that the scene does not take.
     pub fn new(selection: Selection<'_>, given: &[(&str, &str)]) -> Result<Self> {
-        let Selection {
-            scene,
-            engine,
-            drive,
-            disks,
-        } = selection;
-        with_scene(scene, engine, drive, Make { disks, given })?
+        let mut simulation = prepare(selection)?;
+        for (name, text) in given {
+            let position = settable(&*simulation, name)?;
+            let value = simulation.values().table().variables()[position].parse(text)?;
+            simulation.set_at(position, value)?;
+        }
+        simulation.start(0.0)?;
+        Ok(Self(simulation))
+    }
+
+    /// As [`AnySimulation::new`], with values in the place of texts.
+    ///
+    /// # Errors
+    /// As [`AnySimulation::new`].
+    pub fn with_values(selection: Selection<'_>, given: &[(&str, Value)]) -> Result<Self> {
+        let mut simulation = prepare(selection)?;
+        for (name, value) in given {
+            let position = settable(&*simulation, name)?;
+            simulation.set_at(position, *value)?;
+        }
+        simulation.start(0.0)?;
+        Ok(Self(simulation))
     }
 
     /// Sets an input; it holds until it is set again.
@@ -97,7 +110,7 @@ impl AnySimulation {
         self.0.position(name)
     }
 
-    /// Goes on to `end_time` \[s\] under the inputs as they stand, as one communication step.
+    /// Advances to `end_time` \[s\] under the inputs as they stand, as one communication step.
     ///
     /// # Errors
     /// `end_time` is not after the present time, or the scene cannot do the step. Nothing has changed then.
@@ -105,7 +118,8 @@ impl AnySimulation {
         self.0.advance_to(end_time)
     }
 
-    /// Lets one step do no more than so much, instead of what takes half an hour at most: see [`Work`](crate::engine::Work).
+    /// Limits the work of one step, instead of what takes half an hour at most: see
+    /// [`WorkBudget`](crate::engine::WorkBudget).
     pub fn limit_work(&mut self, most: u64) {
         self.0.limit_work(most);
     }
@@ -118,25 +132,58 @@ impl AnySimulation {
     /// The real variable called `name`, as of now.
     ///
     /// # Errors
-    /// The scene has no such variable.
+    /// The scene has no such variable, or it is a whole number.
     pub fn real(&self, name: &str) -> Result<f64> {
-        self.0.real(name)
+        match self.value(self.position(name)?)? {
+            Value::Real(real) => Ok(real),
+            Value::Integer(_) => Err(Error::call(
+                format!("{name} is a whole number"),
+                "Read it as an integer.",
+            )),
+        }
     }
 
     /// The whole number called `name`, as of now.
     ///
     /// # Errors
-    /// The scene has no such variable.
+    /// The scene has no such variable, or it is a real.
     pub fn integer(&self, name: &str) -> Result<i64> {
-        self.0.integer(name)
+        match self.value(self.position(name)?)? {
+            Value::Integer(integer) => Ok(integer),
+            Value::Real(_) => Err(Error::call(format!("{name} is a real number"), "Read it as a real.")),
+        }
     }
 
-    /// All values, with the table of the variables.
-    pub fn values(&self) -> &Values {
-        self.0.values()
+    /// Value of the variable at `position`, as of now.
+    ///
+    /// # Errors
+    /// No variable there.
+    pub fn value(&self, position: usize) -> Result<Value> {
+        self.0.value(position)
     }
 
-    /// The state as bytes without pointers, for a file or another process: see [`crate::saved_bytes`].
+    /// All values as of now, in the order of [`AnySimulation::variables`].
+    ///
+    /// # Errors
+    /// None once it is made.
+    pub fn all_values(&self) -> Result<Vec<Value>> {
+        (0..self.variables().len())
+            .map(|position| self.value(position))
+            .collect()
+    }
+
+    /// The parameter or input called `name`, and what it holds now; none if the scene has no such parameter or input.
+    pub fn given(&self, name: &str) -> Option<Value> {
+        let values = self.0.values();
+        values.table().position(name).and_then(|position| values.get(position))
+    }
+
+    /// The variables: parameters and inputs first.
+    pub fn variables(&self) -> &[Variable] {
+        self.0.values().table().variables()
+    }
+
+    /// The state as bytes without pointers, for a file or another process: see [`fmi_component::saved_bytes`].
     ///
     /// # Errors
     /// The state cannot be written: a defect.
@@ -162,119 +209,51 @@ impl AnySimulation {
     }
 }
 
-impl<S: Scene> From<Simulation<S>> for AnySimulation {
-    fn from(simulation: Simulation<S>) -> Self {
+/// The selected scene with start values, not started.
+fn prepare(selection: Selection<'_>) -> Result<Box<dyn DynSimulation>> {
+    let model = catalogue::find(selection.scene, selection.engine, selection.drive)?;
+    let disks = selection.disks.map(|disks| ("disks", disks));
+    let structure = StructuralParameters::choose(&(model.info)(), disks.as_slice())?;
+    Ok((model.prepare)(structure))
+}
+
+/// Position of the parameter or input called `name`.
+fn settable(simulation: &dyn DynSimulation, name: &str) -> Result<usize> {
+    let position = simulation.position(name)?;
+    match simulation.values().table().variables()[position]
+        .causality
+        .is_settable()
+    {
+        true => Ok(position),
+        false => Err(Error::call(
+            format!("{name} is computed by the scene"),
+            "Give a parameter or an input instead.",
+        )),
+    }
+}
+
+impl<M: Model> From<Simulation<M>> for AnySimulation {
+    fn from(simulation: Simulation<M>) -> Self {
         Self(Box::new(simulation))
-    }
-}
-
-/// What [`AnySimulation`] asks of the simulation that it holds: the methods of [`Simulation`], without types.
-trait Run: Send {
-    fn set_at(&mut self, position: usize, value: Value) -> Result<()>;
-    fn position(&self, name: &str) -> Result<usize>;
-    fn advance_to(&mut self, end_time: f64) -> Result<()>;
-    fn limit_work(&mut self, most: u64);
-    fn time(&self) -> f64;
-    fn real(&self, name: &str) -> Result<f64>;
-    fn integer(&self, name: &str) -> Result<i64>;
-    fn values(&self) -> &Values;
-    fn to_bytes(&self) -> Result<Vec<u8>>;
-    fn restore_bytes(&mut self, bytes: &[u8]) -> Result<()>;
-    fn restore_bytes_anew(&mut self, bytes: &[u8]) -> Result<()>;
-}
-
-impl<S: Scene> Run for Simulation<S> {
-    fn set_at(&mut self, position: usize, value: Value) -> Result<()> {
-        self.set_at(position, value)
-    }
-
-    fn position(&self, name: &str) -> Result<usize> {
-        self.position(name)
-    }
-
-    fn advance_to(&mut self, end_time: f64) -> Result<()> {
-        self.advance_to(end_time)
-    }
-
-    fn limit_work(&mut self, most: u64) {
-        self.limit_work(most);
-    }
-
-    fn time(&self) -> f64 {
-        self.time()
-    }
-
-    fn real(&self, name: &str) -> Result<f64> {
-        self.real(name)
-    }
-
-    fn integer(&self, name: &str) -> Result<i64> {
-        self.integer(name)
-    }
-
-    fn values(&self) -> &Values {
-        self.values()
-    }
-
-    fn to_bytes(&self) -> Result<Vec<u8>> {
-        self.to_bytes()
-    }
-
-    fn restore_bytes(&mut self, bytes: &[u8]) -> Result<()> {
-        self.restore_bytes(bytes)
-    }
-
-    fn restore_bytes_anew(&mut self, bytes: &[u8]) -> Result<()> {
-        self.restore_bytes_anew(bytes)
-    }
-}
-
-struct Make<'a> {
-    disks: Option<u32>,
-    given: &'a [(&'a str, &'a str)],
-}
-
-impl Visitor for Make<'_> {
-    type Output = Result<AnySimulation>;
-
-    fn visit<S: Scene>(self) -> Self::Output {
-        let disks = self.disks.unwrap_or(S::card().default_disks);
-        Simulation::<S>::from_texts(disks, self.given).map(AnySimulation::from)
-    }
-}
-
-impl<S: Scene> Simulation<S> {
-    /// As [`Simulation::new`], from texts.
-    fn from_texts(disks: u32, given: &[(&str, &str)]) -> Result<Self> {
-        let mut values = Self::start_values(disks)?;
-        for (name, text) in given {
-            let position = values.table().position(name).ok_or_else(|| Self::unknown(name))?;
-            let row = &values.table().rows()[position];
-            if !matches!(row.causality, Causality::Parameter | Causality::Input) {
-                let remedy = "Give a parameter or an input instead.";
-                return Err(Error::call(format!("{name} is computed by the scene"), remedy));
-            }
-            let value = row.read(text)?;
-            values.set(position, value)?;
-        }
-        Self::start(disks, values)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::catalogue::cards;
+    use crate::scene::catalogue::{MODELS, Names};
     use crate::scene::packing::PackingOnSine;
 
     #[test]
     fn every_scene_runs_saves_and_restores() {
-        for card in cards() {
+        for model in MODELS {
+            let info = (model.info)();
+            let names = Names::from(&info);
             let selection = Selection {
-                scene: card.scene,
-                engine: Some(card.engine),
-                drive: Some(card.drive),
-                disks: Some(3.min(*card.disks.end())),
+                scene: names.scene,
+                engine: Some(names.engine),
+                drive: Some(names.drive),
+                disks: Some(3.min(*info.structure[0].range.end())),
             };
             let mut one = AnySimulation::new(selection, &[]).unwrap();
             let mut other = AnySimulation::new(selection, &[]).unwrap();
@@ -283,13 +262,14 @@ mod tests {
             for simulation in [&mut one, &mut other] {
                 simulation.advance_to(0.02).unwrap();
             }
-            assert_eq!(one.values(), other.values(), "{card:?}");
+            assert_eq!(one.all_values(), other.all_values(), "{names:?}");
         }
     }
 
     #[test]
     fn the_bits_are_those_of_the_typed_simulation() {
-        let mut typed = Simulation::<PackingOnSine>::new(10, &[("drive.amplitude", 1e-4.into())]).unwrap();
+        let mut typed =
+            Simulation::<PackingOnSine>::new(&[("disks", 10)], &[("drive.amplitude", 1e-4.into())]).unwrap();
         let selection = Selection {
             drive: Some("sine"),
             disks: Some(10),
@@ -298,20 +278,20 @@ mod tests {
         let mut named = AnySimulation::new(selection, &[("drive.amplitude", "1e-4")]).unwrap();
         typed.advance_to(0.1).unwrap();
         named.advance_to(0.1).unwrap();
-        assert_eq!(typed.values(), named.values());
+        assert_eq!(typed.all_values(), named.all_values());
     }
 
     #[test]
     fn what_is_wrong_is_named() {
-        let told = |selection, given: &[(&str, &str)]| AnySimulation::new(selection, given).unwrap_err().to_string();
+        let message = |selection, given: &[(&str, &str)]| AnySimulation::new(selection, given).unwrap_err().to_string();
         let packing = Selection::of("packing");
-        assert!(told(Selection::of("sandpile"), &[]).contains("one of: packing"));
-        assert!(told(packing, &[("glue", "1")]).contains("no variable glue"));
-        assert!(told(packing, &[("contacts", "1")]).contains("computed by the scene"));
-        assert!(told(packing, &[("seed", "1.5")]).contains("a whole number"));
-        assert!(told(packing, &[("gravity", "1,5")]).contains("gravity = 1,5"));
+        assert!(message(Selection::of("sandpile"), &[]).contains("one of: packing"));
+        assert!(message(packing, &[("glue", "1")]).contains("no variable glue"));
+        assert!(message(packing, &[("contacts", "1")]).contains("computed by the scene"));
+        assert!(message(packing, &[("seed", "1.5")]).contains("a whole number"));
+        assert!(message(packing, &[("gravity", "1,5")]).contains("gravity = 1,5"));
         assert!(
-            told(
+            message(
                 Selection {
                     disks: Some(0),
                     ..packing

@@ -1,20 +1,22 @@
-//! What drives the base of a scene, as a type: its rows in the variable table and how it reads them.
+//! What moves the base of a scene, as a type: the rows of its parameters and inputs, and how it reads them.
 
 use std::f64::consts::TAU;
 
 use crate::drive::{Drive, FollowsInput, Sine};
-use crate::error::Result;
 
-use crate::scene::{TIME, Unit, Values, Variable};
+use super::{Result, Row, TIME, Unit, Values};
+
+/// Terminal of what is coupled at the base. It exists where inputs move the base.
+pub const TERMINAL: &str = "base";
 
 /// A motion of the base that a scene can be bundled with.
 pub trait BaseDrive: Drive {
     /// Name on the command line and in the instantiation token.
     const NAME: &'static str;
-    /// Whether inputs steer it, so that [`BaseDrive::aim`] changes it.
+    /// Whether inputs move it, so that [`BaseDrive::set_target`] changes it.
     const STEERED: bool;
 
-    /// What the displacement at the start depends on, as in [`Scene::initial_dependencies`](crate::scene::Scene).
+    /// What the displacement at the start depends on, as in [`Row::depending_on`](crate::scene::Row::depending_on).
     const DISPLACEMENT_AT_START: &'static [&'static str];
     /// What the acceleration at the start depends on.
     const ACCELERATION_AT_START: &'static [&'static str];
@@ -22,7 +24,7 @@ pub trait BaseDrive: Drive {
     const FREQUENCY: &'static [&'static str];
 
     /// Parameters and inputs that it adds to a scene.
-    fn variables() -> Vec<Variable>;
+    fn rows<M>() -> Vec<Row<M>>;
 
     /// The motion from `start_time` \[s\] on.
     ///
@@ -31,7 +33,7 @@ pub trait BaseDrive: Drive {
     fn new(start_time: f64, values: &Values) -> Result<Self>;
 
     /// Takes the inputs at `time` \[s\] for a step of `duration` \[s\].
-    fn aim(&mut self, time: f64, duration: f64, values: &Values);
+    fn set_target(&mut self, time: f64, duration: f64, values: &Values);
 
     /// Frequency \[Hz\] if it is known before the run.
     fn frequency(&self) -> Option<f64>;
@@ -44,20 +46,23 @@ impl BaseDrive for FollowsInput {
     const ACCELERATION_AT_START: &'static [&'static str] = &[];
     const FREQUENCY: &'static [&'static str] = &[];
 
-    fn variables() -> Vec<Variable> {
+    fn rows<M>() -> Vec<Row<M>> {
         vec![
-            Variable::input(
+            Row::input(
                 "base.displacement",
-                Unit::Metre,
+                Unit::METRE,
                 1e-3,
                 "Displacement of the base, up, at the present communication point",
-            ),
-            Variable::input(
+            )
+            .with_derivative("base.velocity")
+            .in_terminal(TERMINAL, "displacement"),
+            Row::input(
                 "base.velocity",
-                Unit::MetrePerSecond,
+                Unit::METRE_PER_SECOND,
                 0.1,
                 "Velocity of the base, up, at the present communication point",
-            ),
+            )
+            .in_terminal(TERMINAL, "velocity"),
         ]
     }
 
@@ -69,8 +74,8 @@ impl BaseDrive for FollowsInput {
         ))
     }
 
-    fn aim(&mut self, time: f64, duration: f64, values: &Values) {
-        Self::aim(
+    fn set_target(&mut self, time: f64, duration: f64, values: &Values) {
+        Self::set_target(
             self,
             time,
             duration,
@@ -84,7 +89,7 @@ impl BaseDrive for FollowsInput {
     }
 }
 
-/// The sine that the parameters of a scene tell.
+/// The sine that the parameters of a scene describe.
 pub fn sine_of(values: &Values) -> Sine {
     Sine {
         amplitude: values.real("drive.amplitude"),
@@ -100,25 +105,25 @@ impl BaseDrive for Sine {
     const ACCELERATION_AT_START: &'static [&'static str] = Self::DISPLACEMENT_AT_START;
     const FREQUENCY: &'static [&'static str] = &["drive.frequency"];
 
-    fn variables() -> Vec<Variable> {
+    fn rows<M>() -> Vec<Row<M>> {
         vec![
-            Variable::parameter(
+            Row::parameter(
                 "drive.amplitude",
-                Unit::Metre,
+                Unit::METRE,
                 0.0..=1.0,
                 7.757e-5,
                 "Amplitude A of the base, y = A sin(2 pi f t + phase); the default is Gamma = 2 at 80 Hz",
             ),
-            Variable::parameter(
+            Row::parameter(
                 "drive.frequency",
-                Unit::Hertz,
+                Unit::HERTZ,
                 0.0..=1e6,
                 80.0,
                 "Frequency f of the base",
             ),
-            Variable::parameter(
+            Row::parameter(
                 "drive.phase",
-                Unit::Radian,
+                Unit::RADIAN,
                 -TAU..=TAU,
                 0.0,
                 "Phase of the base at time zero",
@@ -130,7 +135,7 @@ impl BaseDrive for Sine {
         Ok(sine_of(values))
     }
 
-    fn aim(&mut self, _time: f64, _duration: f64, _values: &Values) {}
+    fn set_target(&mut self, _time: f64, _duration: f64, _values: &Values) {}
 
     fn frequency(&self) -> Option<f64> {
         Some(self.frequency)

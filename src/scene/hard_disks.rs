@@ -1,27 +1,29 @@
-//! What the scenes of hard disks on a base share: the base as their parameters tell, energies, the report of a step.
+//! What the scenes of hard disks on a base share: the base that their parameters describe, radii and energies.
 
-use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 use crate::drive::{Drive, FollowsInput, Sine};
+use crate::engine::DiskMotion;
 use crate::engine::event_driven::{Counts, Moving, VibratingBase};
-use crate::error::{Result, are_sane};
+use crate::error::are_sane;
 
 use super::base_drive::BaseDrive;
-use super::{OutputWriter, Values};
+use super::disks_on_base::DisksOnBase;
+use super::{Error, Result, Row, Unit, Values};
 
 /// A base that a scene of hard disks can stand on.
 pub trait HardBase: VibratingBase {
     /// Where its variables come from.
     type Drive: BaseDrive;
 
-    /// The base as the parameters tell.
+    /// The base that the parameters describe.
     ///
     /// # Errors
     /// Values that are no motion.
     fn from_values(start_time: f64, values: &Values) -> Result<Self>;
 
     /// Takes new inputs at `time` \[s\] for a step of `duration` \[s\]; false if nothing has changed.
-    fn aim(&mut self, time: f64, duration: f64, values: &Values) -> bool;
+    fn set_target(&mut self, time: f64, duration: f64, values: &Values) -> bool;
 }
 
 impl HardBase for Moving<Sine> {
@@ -35,7 +37,7 @@ impl HardBase for Moving<Sine> {
         })
     }
 
-    fn aim(&mut self, _time: f64, _duration: f64, _values: &Values) -> bool {
+    fn set_target(&mut self, _time: f64, _duration: f64, _values: &Values) -> bool {
         false
     }
 }
@@ -49,84 +51,124 @@ impl HardBase for Moving<FollowsInput> {
         Ok(Self { drive, farthest })
     }
 
-    fn aim(&mut self, time: f64, duration: f64, values: &Values) -> bool {
-        BaseDrive::aim(&mut self.drive, time, duration, values);
+    fn set_target(&mut self, time: f64, duration: f64, values: &Values) -> bool {
+        BaseDrive::set_target(&mut self.drive, time, duration, values);
         self.farthest = self.drive.highest();
         true
     }
 }
 
-/// What the last communication step reported.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Report {
-    /// Time reached \[s\].
-    pub time: f64,
-    /// Vertical force of the disks on the base \[N\], mean over the last communication step.
-    pub reaction_force: f64,
-    /// Total energy at the start \[J\].
-    pub start_energy: f64,
-}
-
-impl Report {
-    /// Before the first step, at `time` \[s\].
-    pub fn at_start(time: f64) -> Self {
-        Self {
-            time,
-            reaction_force: 0.0,
-            start_energy: 0.0,
-        }
-    }
-
-    /// Whether every number is finite and far from overflow.
-    pub fn is_sane(&self) -> bool {
-        are_sane([self.time, self.reaction_force, self.start_energy])
-    }
-}
-
-/// What disks of a scene are made of.
-#[derive(Debug, Clone, Copy)]
-pub struct Matter<'scene> {
-    /// Masses \[kg\].
-    pub masses: &'scene [f64],
-    /// g \[m/s2\].
-    pub gravity: f64,
-    /// Moment of inertia over m R^2.
-    pub inertia_factor: f64,
-}
-
-/// Kinetic and potential energy \[J\] of the disks at one time.
+/// Kinetic and potential energy \[J\] of hard disks at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Energies {
+pub struct HardDiskEnergies {
     /// Of translation and rotation \[J\].
     pub kinetic: f64,
     /// In gravity, zero at height zero \[J\].
     pub potential: f64,
 }
 
-impl Energies {
-    /// Of disks that are `seen` so: radius, place, velocity, angular velocity.
-    pub fn of(matter: Matter<'_>, seen: impl Iterator<Item = (f64, [f64; 2], [f64; 2], f64)>) -> Self {
-        let mut energies = Self::default();
-        for (mass, (radius, [_, y], [vx, vy], angular_velocity)) in matter.masses.iter().zip(seen) {
-            let rim = radius * angular_velocity;
-            energies.kinetic += 0.5 * mass * (vx * vx + vy * vy + matter.inertia_factor * rim * rim);
-            energies.potential += mass * matter.gravity * y;
-        }
-        energies
-    }
-
+impl HardDiskEnergies {
     /// Both together \[J\].
     pub fn total(&self) -> f64 {
         self.kinetic + self.potential
     }
+}
 
-    /// Writes the outputs `energy.*` of a run that began with `start` \[J\].
-    pub fn write(&self, outputs: &mut OutputWriter<'_>, counts: &Counts, start: f64) {
-        outputs.real("energy.kinetic", self.kinetic);
-        outputs.real("energy.potential", self.potential);
-        outputs.real("energy.input", counts.energy_input);
-        outputs.real("energy.lost", counts.energy_lost);
-        let change = self.total() - start;
-        outputs.real("energy.residual", change - counts.energy_input + counts.energy_lost);
+/// A scene of hard disks, as far as the outputs `energy.*` show it.
+pub trait HardDisksOnBase: DisksOnBase {
+    /// Masses \[kg\].
+    fn masses(&self) -> &[f64];
+    /// Radius of a disk \[m\].
+    fn radius(&self, disk: usize) -> f64;
+    /// g \[m/s2\].
+    fn gravity(&self) -> f64;
+    /// Moment of inertia over m R^2.
+    fn inertia_factor(&self) -> f64;
+    /// Sums since the start.
+    fn counts(&self) -> Counts;
+    /// Total energy at the start \[J\].
+    fn start_energy(&self) -> f64;
+
+    /// Energies of the disks now.
+    #[inline(always)]
+    fn energies(&self) -> HardDiskEnergies {
+        let mut energies = HardDiskEnergies::default();
+        for (disk, mass) in self.masses().iter().enumerate() {
+            let DiskMotion {
+                position,
+                velocity,
+                angular_velocity,
+                ..
+            } = self.disk(disk);
+            let rim = self.radius(disk) * angular_velocity;
+            energies.kinetic += 0.5 * mass * (velocity.norm_squared() + self.inertia_factor() * rim * rim);
+            energies.potential += mass * self.gravity() * position.y;
+        }
+        energies
+    }
+
+    /// Whether disks, base and sums at `time` \[s\] are finite and far from overflow.
+    fn is_sane(&self, time: f64) -> bool {
+        let counts = self.counts();
+        self.motions_are_sane(time) && are_sane([counts.energy_lost, counts.energy_input, counts.base_impulse])
+    }
+
+    /// Refuses a step of the scene that ended at `time` \[s\] with numbers beyond use.
+    ///
+    /// # Errors
+    /// A disk, the base or a sum is not finite or close to overflow.
+    fn check(&self, scene: &'static str, time: f64) -> Result<()> {
+        if self.is_sane(time) {
+            return Ok(());
+        }
+        Err(Error::Step {
+            model: scene,
+            time,
+            what: "a disk or the base is beyond 1e100 or no longer finite".into(),
+            remedy: "Check the base's amplitude and the inputs.".into(),
+        })
+    }
+}
+
+/// Texts and typical size of the outputs `energy.*`.
+pub struct EnergyRows<'a> {
+    /// Typical energy \[J\].
+    pub nominal: f64,
+    /// Description of the potential energy, with its zero.
+    pub potential: &'a str,
+    /// Description of the energy lost.
+    pub lost: &'a str,
+    /// Description of what the balance misses.
+    pub residual: &'a str,
+    /// What the potential energy at the start depends on.
+    pub potential_at_start: &'a Arc<[&'static str]>,
+}
+
+impl EnergyRows<'_> {
+    /// The rows.
+    pub fn rows<M: HardDisksOnBase>(&self) -> [Row<M>; 5] {
+        let energy = |name: &str, description: &str, read: fn(&M) -> f64| {
+            Row::output(name, Unit::JOULE, self.nominal, description, read)
+        };
+        [
+            energy(
+                "energy.kinetic",
+                "Kinetic energy of translation and rotation",
+                |scene| scene.energies().kinetic,
+            ),
+            energy("energy.potential", self.potential, |scene| scene.energies().potential)
+                .depending_on(self.potential_at_start),
+            energy(
+                "energy.input",
+                "Work done by the base on the disks since the start",
+                |scene| scene.counts().energy_input,
+            ),
+            energy("energy.lost", self.lost, |scene| scene.counts().energy_lost),
+            energy("energy.residual", self.residual, |scene| {
+                let counts = scene.counts();
+                let change = scene.energies().total() - scene.start_energy();
+                change - counts.energy_input + counts.energy_lost
+            }),
+        ]
     }
 }

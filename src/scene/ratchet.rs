@@ -2,27 +2,29 @@
 
 mod equations;
 mod fields;
-mod initial;
-mod rows;
+mod outputs;
+mod parameters;
+mod refusals;
 mod start;
 
 use serde::{Deserialize, Serialize};
 
 use crate::collision::{Coulomb, VelocityFloor};
-use crate::drive::{BoundedDrive, FollowsInput, Sine};
+use crate::drive::{BaseMotion, BoundedDrive, FollowsInput, Motion, Sine};
 use crate::engine::event_driven::{
-    EventDriven, Gravity, Moving, Observer, Partner, PeriodicAcross, Sawtooth, Settings, State, Stop, Unobserved,
+    self, Counts, EventDriven, EventDrivenState, Moving, Observer, PeriodicAcross, Sawtooth, Settings, Unobserved,
     VibratingBase,
 };
-use crate::engine::{MOST_WORK_IN_A_CALL, Work};
-use crate::error::{Error, Result, are_sane};
+use crate::engine::{DiskMotion, MOST_WORK_IN_A_CALL, WorkBudget};
+use crate::error::are_sane;
 use crate::measure::Transport;
 
 use super::base_drive::BaseDrive;
-use super::hard_disks::{Energies, HardBase, Matter, Report};
+use super::disks_on_base::{DisksOnBase, StepReport, complete};
+use super::hard_disks::{HardBase, HardDisksOnBase};
+use super::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Values, info};
 pub use fields::Resolution;
-
-use super::{Card, Choice, OutputWriter, Scene, Values, Variable};
+use refusals::{impossible_motion, refusal};
 
 /// Ratchet whose base follows the inputs `base.displacement` and `base.velocity`.
 pub type RatchetOnInput = Ratchet<FollowsInput>;
@@ -31,16 +33,9 @@ pub type RatchetOnInput = Ratchet<FollowsInput>;
 pub type RatchetOnSine = Ratchet<Sine>;
 
 /// Engine of the ratchet with drive D.
-pub type RatchetEngine<D> = EventDriven<VelocityFloor<Coulomb>, Sawtooth<D>, Gravity, PeriodicAcross>;
+pub type RatchetEngine<D> = EventDriven<VelocityFloor<Coulomb>, Sawtooth<D>, PeriodicAcross>;
 
 const NAME: &str = "ratchet";
-
-/// Greatest acceleration \[m/s2\] of the base, beyond which searches for first hits take ever smaller steps. The sine of the
-/// greatest amplitude and frequency has 4e13.
-const MOST_ACCELERATION: f64 = 1e14;
-
-/// Disks above this many rows over the base belong to the topmost cells.
-const REGION_ROWS: f64 = 12.0;
 
 /// Disks on a sawtooth with drive D.
 #[derive(Debug)]
@@ -54,7 +49,9 @@ pub struct Ratchet<D: BoundedDrive> {
     headroom: f64,
     /// Work that one call may do.
     most_work: u64,
-    report: Report,
+    /// Total energy at the start \[J\].
+    start_energy: f64,
+    report: StepReport,
     averages: Averages,
 }
 
@@ -62,9 +59,11 @@ pub struct Ratchet<D: BoundedDrive> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RatchetState<B> {
     /// The engine's.
-    pub engine: State<B>,
+    pub engine: EventDrivenState<B>,
     /// The last communication step.
-    pub report: Report,
+    pub report: StepReport,
+    /// Total energy at the start \[J\]: it depends on where inputs had the base then.
+    pub start_energy: f64,
     /// Running averages.
     pub averages: Averages,
 }
@@ -81,45 +80,24 @@ pub struct Averages {
 impl<D> Ratchet<D>
 where
     D: BaseDrive + BoundedDrive,
-    Moving<D>: HardBase + VibratingBase,
+    Moving<D>: HardBase<Drive = D>,
 {
-    /// The engine, to look at everything that is no output.
+    /// The engine, for everything that is no output.
     pub fn engine(&self) -> &RatchetEngine<D> {
         &self.engine
     }
 
-    fn energies(&self) -> Energies {
-        let matter = Matter {
-            masses: &self.masses,
-            gravity: self.gravity,
-            inertia_factor: self.inertia_factor,
-        };
-        let seen = self.engine.state().bodies.iter().enumerate().map(|(disk, body)| {
-            let (place, velocity, _, angular_velocity) = self.engine.seen(disk, self.report.time);
-            (body.radius, place, velocity, angular_velocity)
-        });
-        Energies::of(matter, seen)
-    }
-
-    /// As [`Scene::advance_to`], to the bit, and shows the flights of the disks.
+    /// As [`Model::advance_to`], to the bit, and shows the flights of the disks to an observer.
     ///
     /// # Errors
-    /// As [`Scene::advance_to`]; what was shown then does not count.
+    /// As [`Model::advance_to`]; what was shown then does not count.
     pub fn advance_observed(&mut self, end_time: f64, values: &Values, observer: &mut impl Observer) -> Result<()> {
         let backup = self.saved();
         let (from, impulse) = (self.report.time, self.engine.state().counts.base_impulse);
-        if let Err(error) = self.run_to(end_time, values, observer) {
+        let outcome = self.run_to(end_time, values, observer);
+        if let Err(error) = outcome.and_then(|()| self.check(NAME, end_time)) {
             self.go_back(&backup);
             return Err(error);
-        }
-        if !self.is_sane(end_time) {
-            self.go_back(&backup);
-            return Err(Error::Step {
-                scene: NAME,
-                time: end_time,
-                what: "a disk or the base is beyond 1e100 or no longer finite".into(),
-                remedy: "Check the base's amplitude and the inputs.".into(),
-            });
         }
         let given = self.engine.state().counts.base_impulse - impulse;
         self.report.time = end_time;
@@ -127,19 +105,19 @@ where
         Ok(())
     }
 
-    /// Takes the inputs for a step to `end_time` \[s\] and handles its events, reading places where batches end.
+    /// Takes the inputs for a step to `end_time` \[s\] and handles its events, recording positions where batches end.
     fn run_to(&mut self, end_time: f64, values: &Values, observer: &mut impl Observer) -> Result<()> {
         let from = self.report.time;
         let mut base = self.engine.state().boundary.base().clone();
-        if base.aim(from, end_time - from, values) {
+        if base.set_target(from, end_time - from, values) {
             let acceleration = base.drive.greatest_acceleration();
-            if !(acceleration <= MOST_ACCELERATION && base.farthest < self.headroom) {
-                return Err(impossible(from, acceleration, base.farthest, self.headroom));
+            if !(acceleration <= refusals::MOST_ACCELERATION && base.farthest < self.headroom) {
+                return Err(impossible_motion(from, acceleration, base.farthest, self.headroom));
             }
             let change = |boundary: &mut Sawtooth<D>| boundary.set_base(base);
-            self.engine.change_boundary_observed(from, change, observer);
+            self.engine.change_boundary(from, observer, change);
         }
-        let mut work = Work::at_most(self.most_work);
+        let mut budget = WorkBudget::at_most(self.most_work);
         let mark = values.real("measure.mark");
         if mark != self.averages.mark {
             let transport = Transport::new(from);
@@ -147,100 +125,43 @@ where
         }
         while self.averages.transport.due() <= end_time {
             let due = self.averages.transport.due();
-            self.engine.advance_within(due, observer, &mut work).map_err(refusal)?;
-            let places = (0..self.masses.len()).map(|disk| self.engine.seen(disk, due).0[0]);
+            self.engine
+                .advance_within(due, observer, &mut budget)
+                .map_err(refusal)?;
+            let positions = (0..self.masses.len()).map(|disk| self.engine.sample_at(due, disk).position.x);
             let input = self.engine.state().counts.energy_input;
-            self.averages.transport.record(places, input);
+            self.averages.transport.record(positions, input);
         }
         self.engine
-            .advance_within(end_time, observer, &mut work)
+            .advance_within(end_time, observer, &mut budget)
             .map_err(refusal)
-    }
-
-    /// Whether everything at `time` \[s\] is finite and far from overflow.
-    fn is_sane(&self, time: f64) -> bool {
-        let state = self.engine.state();
-        let (counts, base) = (&state.counts, state.boundary.base().motion(time));
-        let disks_hold = (0..self.masses.len()).all(|disk| {
-            let (place, velocity, angle, angular_velocity) = self.engine.seen(disk, time);
-            are_sane(place) && are_sane(velocity) && are_sane([angle, angular_velocity])
-        });
-        disks_hold
-            && are_sane([counts.energy_lost, counts.energy_input, counts.base_impulse])
-            && are_sane([base.displacement, base.velocity, base.acceleration])
     }
 
     fn saved(&self) -> RatchetState<Sawtooth<D>> {
         RatchetState {
             engine: self.engine.state().clone(),
             report: self.report,
+            start_energy: self.start_energy,
             averages: self.averages.clone(),
         }
     }
 
     fn go_back(&mut self, state: &RatchetState<Sawtooth<D>>) {
         self.engine.restore(&state.engine);
-        self.report = state.report;
+        (self.report, self.start_energy) = (state.report, state.start_energy);
         self.averages.clone_from(&state.averages);
     }
 }
 
-fn refusal(stop: Stop) -> Error {
-    let stop = match stop {
-        Stop::NoHeadway(stop) => stop,
-        Stop::TooManyEvents { time, most } => {
-            return Error::too_much_work(NAME, time, format!("more than {most} events"));
-        }
-    };
-    let disk = stop.last.0 + 1;
-    let partner = match stop.last.1 {
-        Partner::Disk(other) => format!("disk {}", other + 1),
-        Partner::Wall(0) => "the base".into(),
-        Partner::Wall(_) => "the ceiling".into(),
-        Partner::Shell => "nobody: it is too fast".into(),
-    };
-    Error::Step {
-        scene: NAME,
-        time: stop.time,
-        what: format!(
-            "no headway: {} events in {:e} s, the last of disk {disk} with {partner}",
-            stop.events, stop.took
-        ),
-        remedy: "Inelastic collapse? Raise collision.minimum_normal_velocity or collision.restitution.".into(),
-    }
-}
-
-fn impossible(time: f64, acceleration: f64, farthest: f64, headroom: f64) -> Error {
-    let (what, remedy) = if farthest < headroom {
-        (
-            format!(
-                "the inputs accelerate the base by {acceleration:e} m/s2, and {MOST_ACCELERATION:e} m/s2 is the most"
-            ),
-            "Let base.displacement and base.velocity fit each other and the communication step.",
-        )
-    } else {
-        (
-            format!("the inputs move the base up by {farthest} m, and {headroom} m are left below the ceiling"),
-            "Keep base.displacement smaller or raise cell.height.",
-        )
-    };
-    Error::Step {
-        scene: NAME,
-        time,
-        what,
-        remedy: remedy.into(),
-    }
-}
-
-impl<D> Scene for Ratchet<D>
+impl<D> Model for Ratchet<D>
 where
     D: BaseDrive + BoundedDrive,
-    Moving<D>: HardBase<Drive = D> + VibratingBase,
+    Moving<D>: HardBase<Drive = D>,
 {
     type State = RatchetState<Sawtooth<D>>;
 
-    fn card() -> Card {
-        Card {
+    fn info() -> ModelInfo {
+        SceneInfo {
             scene: NAME,
             identifier: if D::NAME == "input" {
                 "jostle_ratchet"
@@ -256,17 +177,16 @@ where
             stop_time: 10.0,
             step_size: 1e-2,
         }
+        .into()
     }
 
-    fn variables(choice: Choice) -> Vec<Variable> {
-        rows::rows(choice, D::variables())
+    fn variables(structure: &StructuralParameters) -> Vec<Row<Self>> {
+        let mut rows = parameters::rows::<D, Self>();
+        rows.extend(Self::computed_rows(info::disks(structure)));
+        complete(rows)
     }
 
-    fn initial_dependencies(name: &str) -> Option<Vec<&'static str>> {
-        Some(initial::dependencies::<D>(name))
-    }
-
-    fn new(choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
+    fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
         let law = VelocityFloor::new(
             Coulomb::new(values.real("collision.restitution"), values.real("collision.friction"))?,
             values.real("collision.minimum_normal_velocity"),
@@ -274,30 +194,11 @@ where
         let profile = start::profile(values)?;
         let base = <Moving<D> as HardBase>::from_values(start_time, values)?;
         let lift = base.motion(start_time).displacement;
-        let disks = start::disks(choice, values, profile.top() + lift)?;
+        let disks = start::disks(info::disks(structure) as usize, values, profile.top() + lift)?;
         let masses = start::masses(&disks, values);
-        let radius_max = values.real("disk.radius_max");
-        let ceiling = values.real("cell.height");
-        let headroom = ceiling - profile.top() - 2.0 * radius_max;
-        if base.farthest() >= headroom {
-            return Err(Error::parameter(
-                "cell.height",
-                format!("{ceiling} m"),
-                format!(
-                    "more than {} m, above the base at its highest and a disk",
-                    ceiling - headroom + base.farthest()
-                ),
-                "Raise the ceiling or move the base less.",
-            ));
-        }
-        let space = PeriodicAcross {
-            width: start::cell_width(values),
-            bottom: -base.farthest(),
-            height: profile.top()
-                + base.farthest()
-                + (REGION_ROWS + 2.0 * start::layers(disks.len(), values)) * radius_max,
-        };
-        let boundary = Sawtooth::new(profile, base, ceiling, start_time);
+        let headroom = start::headroom(values, profile.top(), base.farthest())?;
+        let space = start::space(values, disks.len(), profile.top(), base.farthest());
+        let boundary = Sawtooth::new(profile, base, values.real("cell.height"), start_time);
         let gravity = values.real("gravity");
         let inertia_factor = values.real("disk.inertia_factor");
         let settings = Settings {
@@ -305,8 +206,13 @@ where
             start_time,
             inertia_factor,
         };
-        let types = (law, boundary, Gravity(gravity), space);
-        let engine = EventDriven::new(types, &disks, &masses, &vec![[0.0; 3]; disks.len()], settings);
+        let model = event_driven::Model {
+            law,
+            boundary,
+            gravity,
+            space,
+        };
+        let engine = EventDriven::new(model, &disks, &masses, &vec![[0.0; 3]; disks.len()], settings);
         let mut ratchet = Self {
             engine,
             layers: start::layers(disks.len(), values),
@@ -315,13 +221,14 @@ where
             inertia_factor,
             headroom,
             most_work: MOST_WORK_IN_A_CALL,
-            report: Report::at_start(start_time),
+            start_energy: 0.0,
+            report: StepReport::at_start(start_time),
             averages: Averages {
                 transport: Transport::new(values.real("measure.start").max(start_time)),
                 mark: values.real("measure.mark"),
             },
         };
-        ratchet.report.start_energy = ratchet.energies().total();
+        ratchet.start_energy = ratchet.energies().total();
         Ok(ratchet)
     }
 
@@ -331,42 +238,6 @@ where
 
     fn limit_work(&mut self, most: u64) {
         self.most_work = most;
-    }
-
-    fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
-        let time = self.report.time;
-        let state = self.engine.state();
-        let seen: Vec<_> = (0..self.masses.len())
-            .map(|disk| self.engine.seen(disk, time))
-            .collect();
-        let count = seen.len() as f64;
-        let (counts, base) = (&state.counts, state.boundary.base().motion(time));
-        let ceiling_hits = state.boundary.ceiling_hits();
-        let places = seen.iter().map(|disk| disk.0[0]);
-        let told = self.averages.transport.told(time, places, counts.energy_input);
-        outputs.real("layers", self.layers);
-        outputs.reals("disk.radius", state.bodies.iter().map(|body| body.radius));
-        outputs.real("mean_velocity", seen.iter().map(|disk| disk.1[0]).sum::<f64>() / count);
-        outputs.real("transport_velocity", told.velocity);
-        outputs.real("transport_velocity.standard_error", told.standard_error);
-        outputs.real("transport_velocity.spread", told.spread);
-        outputs.real(
-            "mean_angular_velocity",
-            seen.iter().map(|disk| disk.3).sum::<f64>() / count,
-        );
-        outputs.real("base.reaction_force", self.report.reaction_force);
-        outputs.real("base.position", base.displacement);
-        outputs.real("base.acceleration", base.acceleration);
-        outputs.real("base.mean_power", told.power);
-        self.energies().write(&mut outputs, counts, self.report.start_energy);
-        outputs.real("collisions", (counts.disk_impacts + counts.wall_impacts) as f64);
-        outputs.real("collisions.disks", counts.disk_impacts as f64);
-        outputs.real("collisions.base", (counts.wall_impacts - ceiling_hits) as f64);
-        outputs.real("collisions.ceiling", ceiling_hits as f64);
-        outputs.reals("disk.angle", seen.iter().map(|disk| disk.2));
-        outputs.reals("disk.x", seen.iter().map(|disk| disk.0[0]));
-        outputs.reals("disk.y", seen.iter().map(|disk| disk.0[1]));
-        outputs.finish();
     }
 
     fn state(&self) -> Self::State {
@@ -380,7 +251,7 @@ where
     fn restore(&mut self, state: &Self::State) -> Result<()> {
         let averages = &state.averages;
         let averages_hold = averages.transport.is_sound(self.masses.len(), state.report.time);
-        let report_holds = state.report.is_sane() && are_sane([averages.mark]);
+        let report_holds = state.report.is_sane() && are_sane([state.start_energy, averages.mark]);
         let counts_hold = state.engine.boundary.ceiling_hits() <= state.engine.counts.wall_impacts;
         let remedy = "Restore states of the same scene, disk count and parameters only.";
         if !(averages_hold && report_holds && counts_hold && self.engine.fits(&state.engine)) {
@@ -393,5 +264,58 @@ where
             return Err(Error::state("it holds numbers that no ratchet has", remedy));
         }
         Ok(())
+    }
+}
+
+impl<D> DisksOnBase for Ratchet<D>
+where
+    D: BaseDrive + BoundedDrive,
+    Moving<D>: HardBase<Drive = D>,
+{
+    fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    fn disk_count(&self) -> usize {
+        self.masses.len()
+    }
+
+    #[inline(always)]
+    fn disk_at(&self, time: f64, disk: usize) -> DiskMotion {
+        self.engine.sample_at(time, disk)
+    }
+
+    fn base_at(&self, time: f64) -> Motion {
+        self.engine.state().boundary.base().motion(time)
+    }
+}
+
+impl<D> HardDisksOnBase for Ratchet<D>
+where
+    D: BaseDrive + BoundedDrive,
+    Moving<D>: HardBase<Drive = D>,
+{
+    fn masses(&self) -> &[f64] {
+        &self.masses
+    }
+
+    fn radius(&self, disk: usize) -> f64 {
+        self.engine.state().bodies[disk].radius
+    }
+
+    fn gravity(&self) -> f64 {
+        self.gravity
+    }
+
+    fn inertia_factor(&self) -> f64 {
+        self.inertia_factor
+    }
+
+    fn counts(&self) -> Counts {
+        self.engine.state().counts
+    }
+
+    fn start_energy(&self) -> f64 {
+        self.start_energy
     }
 }

@@ -14,8 +14,7 @@
 
 use toml::{Table, Value};
 
-use super::{AnySimulation, Selection};
-use crate::error::{Error, Result};
+use super::{AnySimulation, Error, Result, Selection};
 
 /// What a TOML text says, not yet held against the scene.
 ///
@@ -159,14 +158,14 @@ mod tests {
 
     #[test]
     fn what_is_wrong_is_named() {
-        let told = |text: &str| text.parse::<Recipe>().unwrap_err().to_string();
-        assert!(told("scene = ").contains("line 1"));
-        assert!(told("disks = 3").starts_with("scene = nothing"));
-        assert!(told("scene = 3").starts_with("scene = 3 is not allowed: a text"));
-        assert!(told("scene = 'packing'\ndisks = -3").starts_with("disks = -3"));
-        assert!(told("scene = 'packing'\nseed = 3").contains("[parameters]"));
-        assert!(told("scene = 'packing'\nparameters = 3").contains("a table"));
-        assert!(told("scene = 'packing'\nparameters.seed = [3]").starts_with("seed = [3]"));
+        let message = |text: &str| text.parse::<Recipe>().unwrap_err().to_string();
+        assert!(message("scene = ").contains("line 1"));
+        assert!(message("disks = 3").starts_with("scene = nothing"));
+        assert!(message("scene = 3").starts_with("scene = 3 is not allowed: a text"));
+        assert!(message("scene = 'packing'\ndisks = -3").starts_with("disks = -3"));
+        assert!(message("scene = 'packing'\nseed = 3").contains("[parameters]"));
+        assert!(message("scene = 'packing'\nparameters = 3").contains("a table"));
+        assert!(message("scene = 'packing'\nparameters.seed = [3]").starts_with("seed = [3]"));
         let recipe: Recipe = "scene = 'packing'\nparameters.gravity = nan".parse().unwrap();
         assert!(
             recipe

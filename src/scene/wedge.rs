@@ -5,23 +5,26 @@
 
 mod engine;
 mod equations;
-mod initial;
 mod rigid;
 mod rows;
 mod soft;
 
 use serde::{Deserialize, Serialize};
 
-use crate::drive::{FollowsInput, Sine};
-use crate::engine::molecular_dynamics::VelocityVerlet;
-use crate::engine::{MOST_WORK_IN_A_CALL, Work};
-use crate::error::{Error, Result, are_sane};
+use crate::drive::{FollowsInput, Motion, Sine};
+use crate::engine::{DiskMotion, MOST_WORK_IN_A_CALL, WorkBudget};
+use crate::error::are_sane;
 use crate::measure::BatchMeans;
 
-use super::{Card, Choice, Scene};
-use crate::scene::{OutputWriter, Values, Variable};
-pub use engine::{Engine, Look};
+use super::disks_on_base::{
+    BaseRows, DisksOnBase, StepReport, complete, heights, horizontal_positions, mean_angular_velocity, mean_velocity,
+    names, rotations,
+};
+use super::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values};
+use engine::{Around, AtStart};
+pub use engine::{SpecificEnergies, WedgeEngine};
 pub use rigid::{EventDriven, Map};
+use rows::NAME;
 pub use soft::Soft;
 
 /// Disk in a wedge by the map of P 6.3: walls at rest, base velocities at a random phase.
@@ -31,7 +34,7 @@ pub type WedgeMap = Wedge<Map>;
 pub type WedgeEventDriven<D> = Wedge<EventDriven<D>>;
 
 /// Disk in a wedge that moves with the drive D, by molecular dynamics.
-pub type WedgeMolecularDynamics<D> = Wedge<Soft<VelocityVerlet, D>>;
+pub type WedgeMolecularDynamics<D> = Wedge<Soft<D>>;
 
 /// [`WedgeEventDriven`] on a sine.
 pub type WedgeEventDrivenOnSine = WedgeEventDriven<Sine>;
@@ -42,10 +45,14 @@ pub type WedgeMolecularDynamicsOnSine = WedgeMolecularDynamics<Sine>;
 /// [`WedgeMolecularDynamics`] on the inputs.
 pub type WedgeMolecularDynamicsOnInput = WedgeMolecularDynamics<FollowsInput>;
 
-const NAME: &str = "wedge";
-
 /// First duration of a batch of the running standard error \[s\]; it doubles as the run goes on.
 const FIRST_BATCH: f64 = 1e-3;
+
+/// Height up the bisector and the bisector itself.
+const PLACE: &[&str] = &["wedge.aperture", "wedge.tilt", "disk.radius", "disk.drop_height"];
+
+/// What the velocity of the disk at the start depends on.
+const VELOCITY: &[&str] = &["gravity", "seed", "wedge.aperture", "wedge.tilt", "disk.drop_height"];
 
 /// One disk in a wedge, advanced by the engine E.
 #[derive(Debug)]
@@ -57,54 +64,161 @@ pub struct Wedge<E> {
     scale: f64,
     /// Work that one call may do.
     most_work: u64,
-    report: Report,
-}
-
-/// What the last communication step reported, and the running mean of the angular velocity.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Report {
-    /// Time reached \[s\].
-    pub time: f64,
-    /// Vertical impulse of the base on the disk up to `time` \[N.s\].
-    pub impulse: f64,
-    /// Vertical force of the disk on the base \[N\], mean over the last communication step.
-    pub reaction_force: f64,
+    report: StepReport,
     /// The angle turned, read at the ends of batches.
-    pub turning: BatchMeans,
+    turning: BatchMeans,
 }
 
-/// State of a [`Wedge`]: the engine's, and the report.
+/// State of a [`Wedge`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WedgeState<S> {
     /// The engine's.
     pub engine: S,
-    /// The last communication step and the running mean.
-    pub report: Report,
+    /// The last communication step.
+    pub report: StepReport,
+    /// The running mean of the angular velocity.
+    pub turning: BatchMeans,
 }
 
-impl<E: Engine> Wedge<E> {
-    /// The engine, to look at everything that is no output.
+impl<E> Around<E> for Wedge<E> {
+    fn engine(&self) -> &E {
+        &self.engine
+    }
+}
+
+impl<E: WedgeEngine> DisksOnBase for Wedge<E> {
+    fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    fn disk_count(&self) -> usize {
+        1
+    }
+
+    fn disk_at(&self, time: f64, _disk: usize) -> DiskMotion {
+        self.engine.disk_at(time)
+    }
+
+    fn base_at(&self, time: f64) -> Motion {
+        self.engine.base_at(time)
+    }
+}
+
+impl<E: WedgeEngine> Wedge<E> {
+    /// The engine, to observe everything that is no output.
     pub fn engine(&self) -> &E {
         &self.engine
     }
 
-    /// Runs to `end_time`, reading the angle wherever a batch ends. Engines look at no cost to what follows.
+    /// Runs to `end_time`, reading the angle wherever a batch ends. Observing costs nothing of what follows.
     fn run(&mut self, end_time: f64) -> Result<()> {
-        let mut work = Work::at_most(self.most_work);
-        while self.report.turning.due() <= end_time {
-            let due = self.report.turning.due();
-            self.engine.advance_to(due, &mut work)?;
-            self.report.turning.record(self.engine.look(due).angle);
+        let mut budget = WorkBudget::at_most(self.most_work);
+        while self.turning.due() <= end_time {
+            let due = self.turning.due();
+            self.engine.advance_to(due, &mut budget)?;
+            self.turning.record(self.engine.disk_at(due).angle);
         }
-        self.engine.advance_to(end_time, &mut work)
+        self.engine.advance_to(end_time, &mut budget)
+    }
+
+    /// Runs to `end_time` and checks what came of it. After an error the state is of no use.
+    fn run_sanely(&mut self, end_time: f64) -> Result<()> {
+        self.run(end_time)?;
+        if self.is_sane(end_time) {
+            return Ok(());
+        }
+        Err(Error::Step {
+            model: NAME,
+            time: end_time,
+            what: "the disk or the base is beyond 1e100 or no longer finite".into(),
+            remedy: "Check the base's amplitude and the inputs.".into(),
+        })
+    }
+
+    /// Whether all numbers at `time` \[s\] are finite and far from overflow.
+    fn is_sane(&self, time: f64) -> bool {
+        self.motions_are_sane(time) && self.engine.energies_at(time).are_sane() && are_sane([self.engine.impulse()])
+    }
+
+    /// Energies per mass now.
+    fn energies(&self) -> SpecificEnergies {
+        self.engine.energies_at(self.report.time)
+    }
+
+    fn means() -> [Row<Self>; 4] {
+        let scaled = |name, description, read| Row::output(name, Unit::ONE, 0.01, description, read);
+        [
+            mean_velocity(0.1, "Horizontal velocity of the disk now").depending_on(&VELOCITY.into()),
+            mean_angular_velocity(1.0, "Angular velocity of the disk now, counter-clockwise"),
+            scaled(
+                "scaled_angular_velocity",
+                "Mean angular velocity since measure.start, scaled: R omega / (A omega_b)",
+                |wedge: &Self| wedge.scale * wedge.turning.mean(wedge.report.time, wedge.disk(0).angle),
+            ),
+            scaled(
+                "scaled_angular_velocity.standard_error",
+                "Standard error of scaled_angular_velocity by batch means; 0 until there are eight batches",
+                |wedge| wedge.scale * wedge.turning.standard_error(),
+            ),
+        ]
+    }
+
+    fn base_rows() -> [Row<Self>; 3] {
+        let base = BaseRows {
+            force: 0.1,
+            bodies: "disk on the base",
+            note: "; the map holds it at 0",
+            position_at_start: &E::AT_START.displacement.into(),
+            acceleration_at_start: &E::AT_START.acceleration.into(),
+        };
+        base.rows()
+    }
+
+    fn energy_rows() -> [Row<Self>; 4] {
+        let energy = |name, description, read| Row::output(name, Unit::JOULE, 1e-6, description, read);
+        let height = [PLACE, E::AT_START.place, E::AT_START.displacement].concat();
+        [
+            energy(
+                "energy.kinetic",
+                "Kinetic energy of translation and rotation",
+                |wedge: &Self| wedge.mass * wedge.energies().kinetic,
+            )
+            .depending_on(&names(&[VELOCITY, &["disk.mass"]])),
+            energy(
+                "energy.potential",
+                "Energy in gravity, zero at the height of the vertex with the base at rest",
+                |wedge| wedge.mass * wedge.energies().potential,
+            )
+            .depending_on(&names(&[&height, &["gravity", "disk.mass"]])),
+            energy(
+                "energy.input",
+                "Work done by the base on the disk since the start",
+                |wedge| wedge.mass * wedge.energies().input,
+            ),
+            energy("energy.lost", "Energy lost in collisions since the start", |wedge| {
+                wedge.mass * wedge.energies().lost
+            }),
+        ]
+    }
+
+    fn disk_rows() -> impl Iterator<Item = Row<Self>> {
+        let AtStart {
+            place, displacement, ..
+        } = E::AT_START;
+        let across = "Distance of the centre to the right of the wedge's vertex";
+        let up = "Height of the centre above the wedge's vertex with the base at rest";
+        let angle = "Angle turned, counter-clockwise and unwrapped";
+        rotations(1, angle, 1.0, "Angular velocity, counter-clockwise")
+            .chain(horizontal_positions(1, 0.01, across).map(move |row| row.depending_on(&names(&[PLACE, place]))))
+            .chain(heights(1, 0.01, up).map(move |row| row.depending_on(&names(&[PLACE, place, displacement]))))
     }
 }
 
-impl<E: Engine> Scene for Wedge<E> {
+impl<E: WedgeEngine> Model for Wedge<E> {
     type State = WedgeState<E::State>;
 
-    fn card() -> Card {
-        Card {
+    fn info() -> ModelInfo {
+        SceneInfo {
             scene: NAME,
             identifier: E::IDENTIFIER,
             engine: E::NAME,
@@ -116,17 +230,23 @@ impl<E: Engine> Scene for Wedge<E> {
             stop_time: 100.0,
             step_size: 1e-2,
         }
+        .into()
     }
 
-    fn variables(_choice: Choice) -> Vec<Variable> {
-        rows::rows(E::parameters(), E::drive(), E::counts())
+    fn variables(_structure: &StructuralParameters) -> Vec<Row<Self>> {
+        let mut rows = rows::geometry();
+        rows.extend(E::contact_rows());
+        rows.extend(rows::friction());
+        rows.extend(E::drive_rows());
+        rows.extend(Self::means());
+        rows.extend(Self::base_rows());
+        rows.extend(Self::energy_rows());
+        rows.extend(E::own_outputs());
+        rows.extend(Self::disk_rows());
+        complete(rows)
     }
 
-    fn initial_dependencies(name: &str) -> Option<Vec<&'static str>> {
-        Some(initial::dependencies(name, E::AT_START))
-    }
-
-    fn new(_choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
+    fn new(_structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
         rows::check(values)?;
         let speed = rows::base_speed(values);
         let engine = E::new(start_time, values)?;
@@ -136,12 +256,8 @@ impl<E: Engine> Scene for Wedge<E> {
             mass: values.real("disk.mass"),
             most_work: MOST_WORK_IN_A_CALL,
             scale: values.real("disk.radius") / speed,
-            report: Report {
-                time: start_time,
-                impulse: 0.0,
-                reaction_force: 0.0,
-                turning: BatchMeans::new(since, FIRST_BATCH),
-            },
+            report: StepReport::at_start(start_time),
+            turning: BatchMeans::new(since, FIRST_BATCH),
         };
         scene.run(start_time)?;
         Ok(scene)
@@ -150,26 +266,17 @@ impl<E: Engine> Scene for Wedge<E> {
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
         let backup = self.state();
         let from = self.report.time;
-        self.engine.aim(from, end_time - from, values);
-        if let Err(error) = self.run(end_time) {
+        let impulse = self.engine.impulse() * self.mass;
+        self.engine.set_target(from, end_time - from, values);
+        if let Err(error) = self.run_sanely(end_time) {
             self.engine.restore(&backup.engine, from)?;
-            self.report = backup.report;
+            self.turning = backup.turning;
             return Err(error);
         }
-        let look = self.engine.look(end_time);
-        if !look.is_sane() {
-            self.engine.restore(&backup.engine, from)?;
-            self.report = backup.report;
-            return Err(Error::Step {
-                scene: NAME,
-                time: end_time,
-                what: "the disk or the base is beyond 1e100 or no longer finite".into(),
-                remedy: "Check the base's amplitude and the inputs.".into(),
-            });
-        }
-        let impulse = look.impulse * self.mass;
-        self.report.reaction_force = (self.report.impulse - impulse) / (end_time - from);
-        (self.report.impulse, self.report.time) = (impulse, end_time);
+        self.report = StepReport {
+            time: end_time,
+            reaction_force: (impulse - self.engine.impulse() * self.mass) / (end_time - from),
+        };
         Ok(())
     }
 
@@ -177,36 +284,11 @@ impl<E: Engine> Scene for Wedge<E> {
         self.most_work = most;
     }
 
-    fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
-        let Report { time, turning, .. } = &self.report;
-        let look = self.engine.look(*time);
-        let energy = look.energy;
-        outputs.real("mean_velocity", look.velocity[0]);
-        outputs.real("mean_angular_velocity", look.angular_velocity);
-        outputs.real("scaled_angular_velocity", self.scale * turning.mean(*time, look.angle));
-        outputs.real(
-            "scaled_angular_velocity.standard_error",
-            self.scale * turning.standard_error(),
-        );
-        outputs.real("base.reaction_force", self.report.reaction_force);
-        outputs.real("base.position", look.base.displacement);
-        outputs.real("base.acceleration", look.base.acceleration);
-        outputs.real("energy.kinetic", self.mass * energy.kinetic);
-        outputs.real("energy.potential", self.mass * energy.potential);
-        outputs.real("energy.input", self.mass * energy.input);
-        outputs.real("energy.lost", self.mass * energy.lost);
-        self.engine.write_counts(&mut outputs);
-        outputs.real("disk.angle[1]", look.angle);
-        outputs.real("disk.angular_velocity[1]", look.angular_velocity);
-        outputs.real("disk.x[1]", look.place[0]);
-        outputs.real("disk.y[1]", look.place[1]);
-        outputs.finish();
-    }
-
     fn state(&self) -> Self::State {
         WedgeState {
             engine: self.engine.state(),
-            report: self.report.clone(),
+            report: self.report,
+            turning: self.turning.clone(),
         }
     }
 
@@ -215,24 +297,19 @@ impl<E: Engine> Scene for Wedge<E> {
     }
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
-        let Report {
-            time,
-            impulse,
-            reaction_force,
-            turning,
-        } = &state.report;
+        let WedgeState { report, turning, .. } = state;
+        let time = report.time;
         let remedy = "Restore states of the same scene and parameters only.";
-        let report_holds = are_sane([*time, *impulse, *reaction_force]);
-        if !(report_holds && turning.continues(&self.report.turning, FIRST_BATCH) && turning.due() > *time) {
+        if !(report.is_sane() && turning.continues(&self.turning, FIRST_BATCH) && turning.due() > time) {
             return Err(Error::state("its running means cannot be those of a wedge", remedy));
         }
         let former = self.engine.state();
-        self.engine.restore(&state.engine, *time)?;
-        if !self.engine.look(*time).is_sane() {
+        self.engine.restore(&state.engine, time)?;
+        if !self.is_sane(time) {
             self.engine.restore(&former, self.report.time)?;
             return Err(Error::state("it holds numbers that no wedge has", remedy));
         }
-        self.report = state.report.clone();
+        (self.report, self.turning) = (*report, turning.clone());
         Ok(())
     }
 }

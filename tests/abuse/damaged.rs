@@ -1,13 +1,12 @@
 //! Saved states with some bytes damaged.
 
-use std::sync::Arc;
-
-use jostle::scene::{Choice, Scene, Table, Value, Values};
+use jostle::scene::{Model, Value};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 use super::checks::check_outputs;
-use super::{MOST_WORK, pick};
+use super::pick;
+use super::trial::Trial;
 
 /// Damages some bytes.
 fn damage(generator: &mut Pcg64, bytes: &mut Vec<u8>) {
@@ -28,42 +27,40 @@ fn damage(generator: &mut Pcg64, bytes: &mut Vec<u8>) {
     }
 }
 
-pub fn damaged<S: Scene>(seed: u64) -> Result<String, String> {
+pub fn damaged<M: Model>(seed: u64) -> Result<String, String> {
     let mut generator = Pcg64::seed_from_u64(seed);
-    let disks = pick(&mut generator, &[1, 5]).min(*S::card().disks.end());
-    let choice = Choice { disks };
-    let mut values = Values::new(Arc::new(Table::new(S::variables(choice))));
-    if let Some(row) = values.table().position("base.model") {
-        values
-            .set(row, Value::Integer(generator.random_range(1..=2)))
+    let mut trial = Trial::<M>::of_disks(pick(&mut generator, &[1, 5]));
+    if let Some(position) = trial.values.table().position("base.model") {
+        trial
+            .values
+            .set(position, Value::Integer(generator.random_range(1..=2)))
             .expect("an option");
     }
-    let mut scene = S::new(choice, 0.0, &values).map_err(|error| error.to_string())?;
-    scene.limit_work(MOST_WORK);
-    scene.advance_to(0.02, &values).map_err(|error| error.to_string())?;
-    let mut bytes = postcard::to_allocvec(&scene.state()).expect("serialises");
+    let mut model = trial.model(0.0, &trial.values).map_err(|error| error.to_string())?;
+    model
+        .advance_to(0.02, &trial.values)
+        .map_err(|error| error.to_string())?;
+    let mut bytes = postcard::to_allocvec(&model.state()).expect("serialises");
     let before = bytes.clone();
     damage(&mut generator, &mut bytes);
-    let Ok(state) = postcard::from_bytes::<S::State>(&bytes) else {
+    let Ok(state) = postcard::from_bytes::<M::State>(&bytes) else {
         return Ok("no state".into());
     };
-    if scene.restore(&state).is_err() {
-        if postcard::to_allocvec(&scene.state()).expect("serialises") != before {
-            return Err("a refused state changed the scene".into());
+    if model.restore(&state).is_err() {
+        if postcard::to_allocvec(&model.state()).expect("serialises") != before {
+            return Err("a refused state changed the model".into());
         }
         return Ok("refused".into());
     }
-    scene.write_outputs(values.writer());
-    check_outputs(&values).map_err(|what| format!("after restoring: {what}"))?;
+    check_outputs(&trial.observe(&model)).map_err(|what| format!("after restoring: {what}"))?;
     let mut refused = 0;
     for step in 1..=100 {
         let end = 0.02 + 1e-3 * f64::from(step);
-        if scene.advance_to(end, &values).is_err() {
+        if model.advance_to(end, &trial.values).is_err() {
             refused += 1;
             continue;
         }
-        scene.write_outputs(values.writer());
-        check_outputs(&values).map_err(|what| format!("at {end}: {what}"))?;
+        check_outputs(&trial.observe(&model)).map_err(|what| format!("at {end}: {what}"))?;
     }
     Ok(if refused == 0 {
         "ran".into()

@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use jostle::scene::times::FARTHEST_TIME;
-use jostle::scene::{Causality, Choice, Kind, Scene, Table, Value, Values};
+use fmi_component::times::FARTHEST_TIME;
+use jostle::scene::{Causality, Kind, Model, Value, Values};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-use super::checks::{check_box, check_energy, check_outputs, real};
-use super::{MOST_WORK, pick};
+use super::checks::{check_box, check_energy, check_outputs};
+use super::pick;
+use super::trial::{Observed, Trial};
 
 /// A value that the row allows and nobody would choose.
 fn extreme(generator: &mut Pcg64, kind: &Kind) -> Value {
@@ -39,7 +40,7 @@ fn extreme(generator: &mut Pcg64, kind: &Kind) -> Value {
 }
 
 fn describe(values: &Values, changed: &[usize]) -> String {
-    let rows = values.table().rows();
+    let rows = values.table().variables();
     let told = changed
         .iter()
         .map(|&row| format!("{} = {:?}", rows[row].name, values.get(row)));
@@ -49,13 +50,13 @@ fn describe(values: &Values, changed: &[usize]) -> String {
 /// Puts extreme values into some of the parameters and returns which.
 fn bend(generator: &mut Pcg64, values: &mut Values) -> Vec<usize> {
     let table = Arc::clone(values.table());
-    let is_parameter = |row: &usize| table.rows()[*row].causality == Causality::Parameter;
-    let parameters: Vec<usize> = (0..table.rows().len()).filter(is_parameter).collect();
+    let is_parameter = |row: &usize| table.variables()[*row].causality == Causality::Parameter;
+    let parameters: Vec<usize> = (0..table.variables().len()).filter(is_parameter).collect();
     let count = pick(generator, &[1, 1, 1, 2, 3, 5]);
     let mut changed = Vec::new();
     for _ in 0..count {
         let row = pick(generator, &parameters);
-        let value = extreme(generator, &table.rows()[row].kind);
+        let value = extreme(generator, &table.variables()[row].kind);
         values.set(row, value).expect("within the range");
         changed.push(row);
     }
@@ -63,8 +64,8 @@ fn bend(generator: &mut Pcg64, values: &mut Values) -> Vec<usize> {
 }
 
 /// A duration of some thousand time steps at most, where the scene has such: what is longer is refused at once.
-fn affordable(values: &Values, generator: &mut Pcg64, duration: f64) -> f64 {
-    match real(values, "chosen_time_step") {
+fn affordable(values: &Observed, generator: &mut Pcg64, duration: f64) -> f64 {
+    match values.find("chosen_time_step") {
         Some(step) if generator.random_range(0..8) > 0 => duration.min(3000.0 * step),
         _ => duration,
     }
@@ -87,102 +88,120 @@ fn far(seed: u64) -> f64 {
     from[(seed / 6 % 4) as usize]
 }
 
-pub fn extremes<S: Scene>(seed: u64) -> Result<String, String> {
-    let mut generator = Pcg64::seed_from_u64(seed);
-    let card = S::card();
-    let disks = pick(&mut generator, &[1, 2, 3, 10, 60]).min(*card.disks.end());
-    let choice = Choice { disks };
-    let mut values = Values::new(Arc::new(Table::new(S::variables(choice))));
-    let changed = bend(&mut generator, &mut values);
+/// Draws parameters from their whole ranges.
+fn draw<M: Model>(generator: &mut Pcg64) -> (Trial<M>, Vec<usize>) {
+    let mut trial = Trial::<M>::of_disks(pick(generator, &[1, 2, 3, 10, 60]));
+    let values = &mut trial.values;
+    let changed = bend(generator, values);
+    let table = Arc::clone(values.table());
     if generator.random_range(0..10) == 0
-        && let (Some(large), Some(width)) = (real(&values, "disk.radius_large"), values.table().position("box.width"))
+        && let (Some(large), Some(width)) = (table.position("disk.radius_large"), table.position("box.width"))
+        && let Some(Value::Real(large)) = values.get(large)
     {
         let _ = values.set(width, (2.0 * large).into());
     }
+    (trial, changed)
+}
+
+/// Draws inputs for a step.
+fn draw_inputs<M: Model>(generator: &mut Pcg64, trial: &mut Trial<M>) {
+    let table = Arc::clone(trial.values.table());
+    if table.position("base.displacement").is_some() {
+        for name in ["base.displacement", "base.velocity"] {
+            let kept = trial.values.real(name);
+            let input = pick(
+                generator,
+                &[kept, kept, kept, 0.0, 1e-4, -1e-4, 1.0, -1.0, 1e10, -1e300],
+            );
+            trial.set(name, input);
+        }
+    }
+    for name in ["torque", "torque.rate"] {
+        if table.position(name).is_some() {
+            let kept = trial.values.real(name);
+            let input = pick(generator, &[kept, kept, kept, 0.0, 0.15, -1.0, 1e3, -1e300]);
+            trial.set(name, input);
+        }
+    }
+}
+
+/// Restores a state saved as bytes in a model made anew, and repeats the step to `end`: it must give the same bits.
+fn repeat<M: Model>(trial: &Trial<M>, mut other: M, bytes: &[u8], end: f64, model: &M) -> Result<(), String> {
+    let state = postcard::from_bytes(bytes).map_err(|error| format!("own state: {error}"))?;
+    other
+        .restore(&state)
+        .map_err(|error| format!("own state refused: {error}"))?;
+    other
+        .advance_to(end, &trial.values)
+        .map_err(|error| format!("restored state refuses the step: {error}"))?;
+    let same = trial.observe(&other).values == trial.observe(model).values
+        && postcard::to_allocvec(&other.state()) == postcard::to_allocvec(&model.state());
+    match same {
+        true => Ok(()),
+        false => Err("other bits after restoring".into()),
+    }
+}
+
+pub fn extremes<M: Model>(seed: u64) -> Result<String, String> {
+    let mut generator = Pcg64::seed_from_u64(seed);
+    let (mut trial, changed) = draw::<M>(&mut generator);
     let near = pick(&mut generator, &[0.0, 0.0, 0.0, 0.1, -3.7, 1e6, -1e6]);
     let start = if seed % 6 == 5 { far(seed) } else { near };
-    let told = describe(&values, &changed);
+    let (disks, told) = (trial.disks(), describe(&trial.values, &changed));
     if std::env::var_os("ABUSE_TELLS").is_some() {
         eprintln!("{seed}: from {start}, {disks} disks, {told}");
     }
     let fail = |what: String, time: f64| Err(format!("{what} at {time} from {start}, {disks} disks, {told}"));
-    let mut scene = match S::new(choice, start, &values) {
-        Ok(scene) => scene,
+    let mut model = match trial.model(start, &trial.values) {
+        Ok(model) => model,
         Err(error) if error.to_string().len() > 40 => return Ok("refused".into()),
         Err(error) => return fail(format!("says {error}"), start),
     };
-    scene.limit_work(MOST_WORK);
-    scene.write_outputs(values.writer());
-    if let Err(what) = check_outputs(&values) {
+    let mut now = trial.observe(&model);
+    if let Err(what) = check_outputs(&now) {
         return fail(what, start);
     }
-    let initial = values.clone();
+    let initial = trial.values.clone();
     let mut time = start;
     let mut refusals = 0;
     for duration in steps_of(&mut generator) {
-        if values.table().position("base.displacement").is_some() {
-            for name in ["base.displacement", "base.velocity"] {
-                let kept = values.real(name);
-                let input = pick(
-                    &mut generator,
-                    &[kept, kept, kept, 0.0, 1e-4, -1e-4, 1.0, -1.0, 1e10, -1e300],
-                );
-                values.set_by_name(name, input.into()).expect("finite");
-            }
-        }
-        for name in ["torque", "torque.rate"] {
-            if let Some(kept) = real(&values, name) {
-                let input = pick(&mut generator, &[kept, kept, kept, 0.0, 0.15, -1.0, 1e3, -1e300]);
-                values.set_by_name(name, input.into()).expect("finite");
-            }
-        }
-        let end = time + affordable(&values, &mut generator, duration);
+        draw_inputs(&mut generator, &mut trial);
+        let end = time + affordable(&now, &mut generator, duration);
         if end <= time {
             continue;
         }
         if std::env::var_os("ABUSE_TELLS").is_some() {
-            let inputs = ["base.displacement", "base.velocity"].map(|name| real(&values, name));
-            eprintln!("{seed}: from {time} to {end} under {inputs:?}");
+            eprintln!("{seed}: from {time} to {end} under {:?}", trial.values.as_slice());
         }
-        let base = real(&values, "base.position").unwrap_or(0.0);
-        let before = scene.state();
-        let bytes = postcard::to_allocvec(&before).expect("serialises");
-        match scene.advance_to(end, &values) {
+        let base = now.find("base.position").unwrap_or(0.0);
+        let bytes = postcard::to_allocvec(&model.state()).expect("serialises");
+        match model.advance_to(end, &trial.values) {
             Ok(()) => {
-                scene.write_outputs(values.writer());
-                let base_speed = (real(&values, "base.position").unwrap_or(0.0) - base).abs() / (end - time);
+                now = trial.observe(&model);
+                let base_speed = (now.find("base.position").unwrap_or(0.0) - base).abs() / (end - time);
+                let other = trial.model(start, &initial).map_err(|error| error.to_string())?;
                 for checked in [
-                    check_outputs(&values),
-                    check_box(&values, disks, end, base_speed),
-                    check_energy(&values),
+                    check_outputs(&now),
+                    check_box(&now, disks, end, base_speed),
+                    check_energy(&now),
+                    repeat(&trial, other, &bytes, end, &model),
                 ] {
                     if let Err(what) = checked {
                         return fail(format!("after {duration}: {what}"), end);
                     }
                 }
-                let mut again = values.clone();
-                let mut other = S::new(choice, start, &initial).map_err(|error| error.to_string())?;
-                other.limit_work(MOST_WORK);
-                let state = postcard::from_bytes(&bytes).map_err(|error| format!("own state: {error}"))?;
-                if let Err(error) = other.restore(&state) {
-                    return fail(format!("own state refused: {error}"), time);
-                }
-                if let Err(error) = other.advance_to(end, &values) {
-                    return fail(format!("restored state refuses the step: {error}"), time);
-                }
-                other.write_outputs(again.writer());
-                if again != values || postcard::to_allocvec(&other.state()) != postcard::to_allocvec(&scene.state()) {
-                    return fail(format!("other bits after restoring, step {duration}"), end);
-                }
                 time = end;
             }
             Err(error) => {
                 refusals += 1;
-                if postcard::to_allocvec(&scene.state()).ok() != Some(bytes) {
+                if postcard::to_allocvec(&model.state()).ok() != Some(bytes) {
                     return fail(format!("the refusal '{error}' changed the state"), time);
                 }
+                let table = Arc::clone(trial.values.table());
                 for name in ["base.displacement", "base.velocity", "torque", "torque.rate"] {
-                    let _ = values.set_by_name(name, 0.0.into());
+                    if table.position(name).is_some() {
+                        trial.set(name, 0.0);
+                    }
                 }
             }
         }

@@ -7,17 +7,19 @@
 mod checks;
 mod damaged;
 mod extremes;
+mod trial;
 
 use std::collections::BTreeMap;
 use std::panic::catch_unwind;
 
 use jostle::drive::{FollowsInput, Sine};
+use jostle::scene::disk_on_two_supports::{
+    DiskOnTwoSupportsOnHarmonicTorque, DiskOnTwoSupportsOnInput, DiskOnTwoSupportsOnRandomSupports,
+    DiskOnTwoSupportsOnSine,
+};
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
 use jostle::scene::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
-use jostle::scene::three_disk::{
-    ThreeDiskOnHarmonicTorque, ThreeDiskOnInput, ThreeDiskOnRandomSupports, ThreeDiskOnSine,
-};
 use jostle::scene::wedge::{WedgeEventDriven, WedgeMap, WedgeMolecularDynamics};
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -25,7 +27,7 @@ use rand_pcg::Pcg64;
 use damaged::damaged;
 use extremes::extremes;
 
-/// Work that a step of a trial may do (`jostle::engine::Work`). What absurd parameters ask beyond it is refused.
+/// Work that a step of a trial may do (`jostle::engine::WorkBudget`). What absurd parameters ask beyond it is refused.
 const MOST_WORK: u64 = 200_000;
 
 fn number(variable: &str, usual: u64) -> u64 {
@@ -103,8 +105,8 @@ scenes! {
     wedge_molecular_dynamics_on_input: WedgeMolecularDynamics<FollowsInput>, 12, 60;
     ratchet_on_sine: RatchetOnSine, 12, 60;
     ratchet_on_input: RatchetOnInput, 12, 60;
-    three_disk_on_input: ThreeDiskOnInput, 12, 40;
-    three_disk_on_harmonic_torque: ThreeDiskOnHarmonicTorque, 12, 40;
-    three_disk_on_random_supports: ThreeDiskOnRandomSupports, 12, 40;
-    three_disk_on_sine: ThreeDiskOnSine, 12, 40;
+    three_disk_on_input: DiskOnTwoSupportsOnInput, 12, 40;
+    three_disk_on_harmonic_torque: DiskOnTwoSupportsOnHarmonicTorque, 12, 40;
+    three_disk_on_random_supports: DiskOnTwoSupportsOnRandomSupports, 12, 40;
+    three_disk_on_sine: DiskOnTwoSupportsOnSine, 12, 40;
 }

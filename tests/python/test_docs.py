@@ -1,23 +1,168 @@
-"""The pages name tests that there are."""
+"""The programs and commands of the pages, run as they stand there: same motion, same bits."""
 
+import math
 import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
 
+import fmpy
+import pytest
 from conftest import ROOT
+from snippets import LANGUAGES, RELEASE, compiled, python, run, shell, snippet, snippets
 
-PAGE = (ROOT / "docs/importers.md").read_text()
-SOURCES = {path.name: path.read_text() for path in (ROOT / "tests").rglob("*") if path.suffix in (".py", ".rs")}
+BUILD = ROOT / "build"
+WEIGHT = 3.57 * math.pi * 20 * (0.015**2 + 0.020**2 + 0.025**2) * 9.8
+STATIC_LIBRARY = (str(RELEASE / "libjostle_c.a"), "-lm", "-lpthread", "-ldl")
+CONTROL, PHYSICIST, C, RUST = (f"docs/{name}.md" for name in ("control-engineer", "physicist", "c", "rust"))
+RUN_ELSEWHERE = {
+    (RUST, "rust", ""),  # src/lib.rs: tests of the documentation
+    (RUST, "toml", ""),  # a line of a Cargo.toml
+}
 
 
-def test_every_test_that_the_page_of_importers_names_exists() -> None:
-    everything = "\n".join(SOURCES.values())
-    tests = [match[1] for match in re.finditer(r"`(?:\w+\.py::)?(test_\w+)`", PAGE)]
-    tests += re.findall(r"`tests/\w+/\w+\.rs` \(`(\w+)`\)", PAGE)
-    files = re.findall(r"`(?:tests/(?:\w+/)?)?(\w+\.(?:py|rs))(?:::\w+)?`", PAGE)
-    assert len(tests) > 10
-    assert len(files) > 10
-    assert [name for name in files if name not in SOURCES] == []
-    assert [name for name in tests if not re.search(rf"\b(?:def|fn) {name}\(", everything)] == []
-    # `test_fmuloader_2`, `_3`: what follows a comma is another ending of the same name.
-    for first, rest in re.findall(r"`\w+\.py::(test_[a-z]+)\w*`((?:, `_\w+`)+)", PAGE):
-        for end in re.findall(r"`(_\w+)`", rest):
-            assert f"def {first}{end}(" in everything, f"{first}{end}"
+@dataclass(frozen=True)
+class Printed:
+    angle: float
+    force: float
+
+
+def printed(output: str) -> Printed:
+    found = re.search(r"^angle of disk 1: (\S+) rad\nmean force on the base: (\S+) N$", output, re.MULTILINE)
+    assert found, f"printed something else:\n{output}"
+    return Printed(float(found[1]), float(found[2]))
+
+
+def check(output: str, reference: Printed) -> None:
+    """To the last bit; but each host adds the forces up in its own order."""
+    seen = printed(output)
+    assert seen.angle == reference.angle
+    assert seen.force == pytest.approx(reference.force, rel=1e-12)
+
+
+@pytest.fixture(scope="module")
+def reference(fmu3: Path) -> Printed:
+    """What fmpy prints with the FMI 3.0 FMU."""
+    assert fmu3.is_file()
+    return printed(python(snippet(CONTROL, "python", "fmpy")))
+
+
+def test_every_snippet_is_run_by_a_test():
+    source = Path(__file__).read_text()
+    missing = []
+    for found in snippets():
+        if found.language not in LANGUAGES or (found.page, found.language, found.name) in RUN_ELSEWHERE:
+            continue
+        if f'"{found.language}", "{found.name}")' not in source or not found.name:
+            missing.append(f"{found.page}: ```{found.language} {found.name}")
+    assert missing == []
+
+
+def test_force_is_minus_the_weight_and_disks_turn(reference: Printed):
+    assert reference.force == pytest.approx(-WEIGHT, rel=0.01)
+    assert f"weight of the disks, {WEIGHT:.3f} N," in (ROOT / "README.md").read_text().replace("\n", " ")
+    assert 0.01 < abs(reference.angle) < 100.0
+
+
+def test_first_fmu_of_the_readme_prints_the_same(reference: Printed):
+    program = snippet("README.md", "python", "first-fmu")
+    check(python(program), reference)
+    assert len(program.splitlines()) <= 11
+
+
+def test_fmpy_prints_the_same_with_the_other_version(fmu2: Path, reference: Printed):
+    program = snippet(CONTROL, "python", "fmpy").replace('"build/packing.fmu"', f'"build/{fmu2.name}"')
+    assert program != snippet(CONTROL, "python", "fmpy")
+    check(python(program), reference)
+
+
+def test_libcosim(fmu2: Path, reference: Printed):
+    assert f"build/{fmu2.name}" in snippet(CONTROL, "python", "libcosim")
+    check(python(snippet(CONTROL, "python", "libcosim")), reference)
+
+
+def test_shaker_in_a_closed_loop_moves_the_base(fmu3: Path):
+    assert fmu3.is_file()
+    output = python(snippet(CONTROL, "python", "shaker"))
+    found = re.search(r"largest velocity of the base: (\S+) m/s", output)
+    assert found and 0.01 < float(found[1]) < 0.1, output
+
+
+def test_discarded_step_leaves_an_instance_that_goes_on(fmu3: Path):
+    assert fmu3.is_file()
+    output = python(snippet(CONTROL, "python", "discard"))
+    assert "refused with status 2" in output
+    assert "the next step went through" in output
+
+
+def test_fmus_are_made_as_the_guide_says(reference: Printed):
+    shell(snippet(CONTROL, "sh", "make-fmus"))
+    assert (BUILD / "packing_200.fmu").stat().st_size > 100_000
+    check(python(snippet(CONTROL, "python", "fmpy")), reference)
+
+
+def test_torque_demo_holds_the_disk():
+    output = shell(snippet(CONTROL, "sh", "torque-demo"))
+    assert "event mode" in output
+
+
+@pytest.mark.parametrize("language", ["c", "c++"])
+def test_c_fmu(language: str, fmu3: Path, reference: Printed):
+    assert fmu3.is_file()
+    (BUILD / "shake.c").write_text(snippet(C, "c", "fmu"))
+    check(shell(snippet(C, "sh", "c-fmu")), reference)
+    headers = Path(fmpy.__path__[0]) / "c-code"
+    check(compiled(BUILD / "shake.c", language, "-I", str(headers), "-ldl", "-lm"), reference)
+
+
+def test_c_library(reference: Printed):
+    example = ROOT / "capi" / "examples" / "shaken_packing.c"
+    assert example.read_text() == snippet(C, "c", "library")
+    check(shell(snippet(C, "sh", "c-library")), reference)
+    copy = BUILD / "shaken_packing_as_cpp.c"
+    copy.write_text(example.read_text())
+    check(compiled(copy, "c++", "-I", "include", *STATIC_LIBRARY), reference)
+
+
+@pytest.mark.parametrize("language", ["c", "c++"])
+def test_c_library_from_toml_goes_back_to_a_state(language: str):
+    source = BUILD / "states.c"
+    source.write_text(snippet(C, "c", "states"))
+    output = compiled(source, language, "-I", "include", *STATIC_LIBRARY)
+    first, again = re.findall(r"(-?[\d.]+) rad", output)
+    assert first == again
+    assert float(first) != 0.0
+
+
+def test_rust(reference: Printed):
+    assert (ROOT / "examples" / "shaken_packing.rs").read_text() == snippet(RUST, "rust", "no_run program")
+    check(shell(snippet(RUST, "sh", "run-example")), reference)
+
+
+def test_runs_of_the_command_line_become_arrays():
+    output = shell(snippet(PHYSICIST, "sh", "runs"))
+    assert "drive.amplitude" in output
+    assert len((BUILD / "run.csv").read_text().splitlines()) == 1002
+    seen = python(snippet(PHYSICIST, "python", "run-csv"))
+    force = re.search(r"mean force on the base: (\S+) N", seen)
+    assert force and float(force[1]) == pytest.approx(-WEIGHT, rel=0.05), seen
+
+
+def test_sweep_writes_parquet():
+    run("rm", "-rf", str(BUILD / "sweep"))
+    script = snippet(PHYSICIST, "sh", "sweep")
+    shell(script.replace("sweep build/grid.toml", f"sweep build/grid.toml --program {RELEASE / 'jostle'}"))
+    assert list((BUILD / "sweep").glob("part-*.parquet"))
+
+
+def test_grid_of_the_page_of_figures_is_read():
+    (BUILD / "page.toml").write_text(snippet("docs/figures.md", "toml", "grid"))
+    small = ["--seconds", "0.02", "--seeds", "1", "--grid", "drive.frequency=15", "--grid", "disks=5"]
+    places = ["--program", str(RELEASE / "jostle"), "--results", str(BUILD / "sweep-page")]
+    run(sys.executable, "-m", "jostle_lab", "sweep", str(BUILD / "page.toml"), *small, *places)
+    assert list((BUILD / "sweep-page").glob("part-*.parquet"))
+
+
+def test_peers_are_built_and_run():
+    output = shell("exec 2>&1\n" + snippet("benches/peers/README.md", "sh", "peers"))
+    assert "refed N=" in output

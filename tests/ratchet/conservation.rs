@@ -3,7 +3,7 @@
 use super::*;
 
 /// Elastic smooth disks under gravity on a base at rest.
-fn elastic(height: f64) -> EventDriven<Smooth, Sawtooth<Sine>, Gravity, PeriodicAcross> {
+fn elastic(height: f64) -> EventDriven<Smooth, Sawtooth<Sine>, PeriodicAcross> {
     let at_rest = Sine {
         amplitude: 0.0,
         frequency: 25.0,
@@ -15,11 +15,6 @@ fn elastic(height: f64) -> EventDriven<Smooth, Sawtooth<Sine>, Gravity, Periodic
     };
     let profile = SawtoothProfile::new(6e-3, height, 0.2, 4e-4).unwrap();
     let boundary = Sawtooth::new(profile, base, 0.6, 0.0);
-    let space = PeriodicAcross {
-        width: 60e-3,
-        bottom: 0.0,
-        height: 60e-3,
-    };
     let disks: Vec<Disk> = (0..40)
         .map(|index| Disk {
             x: 5e-3 * (f64::from(index % 12) + 0.5),
@@ -36,8 +31,13 @@ fn elastic(height: f64) -> EventDriven<Smooth, Sawtooth<Sine>, Gravity, Periodic
             ]
         })
         .collect();
-    let types = (Smooth::ELASTIC, boundary, Gravity(9.81), space);
-    EventDriven::new(types, &disks, &[1.0; 40], &velocities, Settings::default())
+    let model = Model {
+        law: Smooth::ELASTIC,
+        boundary,
+        gravity: 9.81,
+        space: cell(),
+    };
+    EventDriven::new(model, &disks, &[1.0; 40], &velocities, Settings::default())
 }
 
 /// Energy stays on any base at rest, and horizontal momentum on a flat one, over some 100,000 impacts.
@@ -45,10 +45,11 @@ fn elastic(height: f64) -> EventDriven<Smooth, Sawtooth<Sine>, Gravity, Periodic
 fn elastic_smooth_disks_keep_energy_and_momentum() {
     for height in [0.0, 6e-3] {
         let mut disks = elastic(height);
-        let sums = |disks: &EventDriven<Smooth, Sawtooth<Sine>, Gravity, PeriodicAcross>, time: f64| {
+        let sums = |disks: &EventDriven<Smooth, Sawtooth<Sine>, PeriodicAcross>, time: f64| {
             (0..40).fold((0.0, 0.0), |(energy, momentum), disk| {
-                let ([_, y], [vx, vy], _, _) = disks.seen(disk, time);
-                (energy + 0.5 * (vx * vx + vy * vy) + 9.81 * y, momentum + vx)
+                let motion = disks.sample_at(time, disk);
+                let energy = energy + 0.5 * motion.velocity.norm_squared() + 9.81 * motion.position.y;
+                (energy, momentum + motion.velocity.x)
             })
         };
         let (energy, momentum) = sums(&disks, 0.0);
@@ -71,11 +72,6 @@ fn mirrored_teeth_give_mirrored_motion() {
         frequency: 25.0,
         phase: 0.3,
     };
-    let space = PeriodicAcross {
-        width: 60e-3,
-        bottom: 0.0,
-        height: 60e-3,
-    };
     let [mut plain, mut mirrored] = [false, true].map(|mirror| {
         let asymmetry = if mirror { 0.8 } else { 0.2 };
         let profile = SawtoothProfile::new(6e-3, 6e-3, asymmetry, 4e-4).unwrap();
@@ -95,8 +91,13 @@ fn mirrored_teeth_give_mirrored_motion() {
             .map(|index| [sign * 0.2 * f64::from(index).sin(), 0.1, sign * 30.0])
             .collect();
         let law = VelocityFloor::new(Coulomb::new(0.8, 0.1).unwrap(), 5e-3).unwrap();
-        let types = (law, boundary, Gravity(9.81), space);
-        EventDriven::new(types, &disks, &[1e-5; 12], &velocities, Settings::default())
+        let model = Model {
+            law,
+            boundary,
+            gravity: 9.81,
+            space: cell(),
+        };
+        EventDriven::new(model, &disks, &[1e-5; 12], &velocities, Settings::default())
     });
     let time = 0.25;
     plain.advance_to(time).unwrap();
@@ -106,14 +107,13 @@ fn mirrored_teeth_give_mirrored_motion() {
     assert!((one.disk_impacts, one.wall_impacts) == (two.disk_impacts, two.wall_impacts));
     let mut off: f64 = 0.0;
     for disk in 0..12 {
-        let (place, velocity, angle, _) = plain.seen(disk, time);
-        let (image, image_velocity, image_angle, _) = mirrored.seen(disk, time);
+        let (one, image) = (plain.sample_at(time, disk), mirrored.sample_at(time, disk));
         off = off
-            .max((place[0] + image[0] - 60e-3).abs())
-            .max((place[1] - image[1]).abs());
+            .max((one.position.x + image.position.x - 60e-3).abs())
+            .max((one.position.y - image.position.y).abs());
         off = off
-            .max((velocity[0] + image_velocity[0]).abs())
-            .max(1e-3 * (angle + image_angle).abs());
+            .max((one.velocity.x + image.velocity.x).abs())
+            .max(1e-3 * (one.angle + image.angle).abs());
     }
     println!(
         "{} and {} impacts, images off by {off:.1e}",
@@ -125,24 +125,22 @@ fn mirrored_teeth_give_mirrored_motion() {
 /// Work of the base less losses is the change of energy, and the mean force on the base is the weight.
 #[test]
 fn energy_and_momentum_balance_to_rounding() {
-    let mut values = sine_values(DEFAULT, &[("disk.inertia_factor", 0.4)]);
-    values.set_by_name("disk.mass_rule", Value::Integer(2)).unwrap();
-    let mut ratchet = RatchetOnSine::new(DEFAULT, 0.0, &values).unwrap();
+    let mut ratchet = on_sine(20, &[("disk.inertia_factor", 0.4), ("disk.mass_rule", 2.0)]);
     let mut impulse = 0.0;
     for i in 1..=10_000 {
-        ratchet.advance_to(f64::from(i) * 2e-3, &values).unwrap();
-        impulse += outputs_of(&ratchet, &values).real("base.reaction_force") * 2e-3;
+        ratchet.advance_to(f64::from(i) * 2e-3).unwrap();
+        impulse += ratchet.real("base.reaction_force").unwrap() * 2e-3;
     }
-    let outputs = outputs_of(&ratchet, &values);
+    let output = |name: &str| ratchet.real(name).unwrap();
     let weight: f64 = (1..=20)
-        .map(|disk| 9.81 * 1e-5 * (outputs.real(&format!("disk.radius[{disk}]")) / 1.1025e-3).powi(2))
+        .map(|disk| 9.81 * 1e-5 * (output(&format!("disk.radius[{disk}]")) / 1.1025e-3).powi(2))
         .sum();
-    assert!(outputs.real("energy.residual").abs() < 1e-11 * outputs.real("energy.input"));
+    assert!(output("energy.residual").abs() < 1e-11 * output("energy.input"));
     assert!(
         (impulse / 20.0 + weight).abs() < 0.02 * weight,
         "{} of {weight}",
         impulse / 20.0
     );
-    assert_eq!(outputs.real("collisions.ceiling"), 0.0);
-    assert!((outputs.real("layers") - 0.7).abs() < 1e-12);
+    assert_eq!(output("collisions.ceiling"), 0.0);
+    assert!((output("layers") - 0.7).abs() < 1e-12);
 }

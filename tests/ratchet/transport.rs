@@ -4,15 +4,13 @@ use super::*;
 
 /// Mean transport velocity and its standard error [m/s] over seeds, after a second of transient.
 fn transport(disks: u32, changes: &[(&str, f64)], seeds: u32, seconds: f64) -> (f64, f64) {
-    let choice = Choice { disks };
     let velocities: Vec<f64> = (1..=seeds)
         .map(|seed| {
             let mut changes = changes.to_vec();
             changes.extend([("seed", f64::from(seed)), ("measure.start", 1.0)]);
-            let values = sine_values(choice, &changes);
-            let mut ratchet = RatchetOnSine::new(choice, 0.0, &values).unwrap();
-            ratchet.advance_to(1.0 + seconds, &values).unwrap();
-            outputs_of(&ratchet, &values).real("transport_velocity")
+            let mut ratchet = on_sine(disks, &changes);
+            ratchet.advance_to(1.0 + seconds).unwrap();
+            ratchet.real("transport_velocity").unwrap()
         })
         .collect();
     let count = f64::from(seeds);

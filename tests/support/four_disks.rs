@@ -1,11 +1,12 @@
 //! The same four disks by both engines: hard, and soft with contacts of a given stiffness.
 
 use jostle::collision::Dashpot;
-use jostle::contact::{ElasticSkin, LinearDashpot};
+use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
-use jostle::engine::event_driven::{EventDriven, Gravity, Moving, Open, Settings, Walls};
-use jostle::engine::molecular_dynamics::{ContactLaws, MolecularDynamics, Setup, TimeStepLimits, VelocityVerlet};
-use jostle::geometry::{Disk, Wall};
+use jostle::engine::Engine;
+use jostle::engine::dem::{ContactLaws, Setup, TimeStepLimits, Verlet};
+use jostle::engine::event_driven::{EventDriven, Model, Moving, Open, Region, Settings, Walls};
+use jostle::geometry::{Disk, Vector2, Wall};
 
 const DISKS: [Disk; 4] = [
     Disk {
@@ -60,18 +61,23 @@ fn hard(stiffness: f64, damping: f64) -> Vec<[f64; 3]> {
         base,
         origin: 0.0,
     };
-    let space = Open {
-        corner: [-0.08, 0.0],
-        size: [0.14, 0.3],
+    let space = Open(Region {
+        corner: Vector2::new(-0.08, 0.0),
+        size: Vector2::new(0.14, 0.3),
+    });
+    let model = Model {
+        law,
+        boundary,
+        gravity: 9.8,
+        space,
     };
-    let types = (law, boundary, Gravity(9.8), space);
-    let mut engine = EventDriven::new(types, &DISKS, &masses(), &VELOCITIES, Settings::default());
+    let mut engine = EventDriven::new(model, &DISKS, &masses(), &VELOCITIES, Settings::default());
     engine.advance_to(END).unwrap();
     let counts = engine.state().counts;
     assert!(counts.disk_impacts >= 3 && counts.wall_impacts >= 4, "{counts:?}");
     (0..4)
-        .map(|disk| engine.seen(disk, END))
-        .map(|([x, y], _, angle, _)| [x, y, angle])
+        .map(|disk| engine.sample_at(END, disk))
+        .map(|motion| [motion.position.x, motion.position.y, motion.angle])
         .collect()
 }
 
@@ -79,12 +85,12 @@ fn hard(stiffness: f64, damping: f64) -> Vec<[f64; 3]> {
 fn soft(stiffness: f64, damping: f64) -> Vec<[f64; 3]> {
     let laws = ContactLaws {
         normal: LinearDashpot { stiffness, damping },
-        skin: ElasticSkin {
+        tangential: TangentialSpring {
             stiffness: 0.77 * stiffness,
             friction: 0.2,
         },
     };
-    let time_step = 0.3 * TimeStepLimits::of(&laws, &masses(), None).default;
+    let time_step = 0.3 * TimeStepLimits::verlet(&laws, &masses(), None).default;
     let walls = WALLS.to_vec();
     let setup = Setup {
         laws,
@@ -94,7 +100,7 @@ fn soft(stiffness: f64, damping: f64) -> Vec<[f64; 3]> {
         time_step,
         start_time: 0.0,
     };
-    let mut engine = MolecularDynamics::<VelocityVerlet, _>::new(setup, &DISKS, drive());
+    let mut engine = Verlet::new(setup, &DISKS, drive());
     engine.set_motion(|state| {
         state
             .velocity
@@ -103,7 +109,7 @@ fn soft(stiffness: f64, damping: f64) -> Vec<[f64; 3]> {
             .for_each(|(to, from)| *to = *from);
     });
     engine.advance_to(END).unwrap();
-    engine.now().places()[..4].to_vec()
+    engine.observables().positions[..4].to_vec()
 }
 
 /// Distance \[m\] in place, and in angle by the radius, of the two engines after the same flight, at a stiffness k_n.

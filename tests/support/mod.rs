@@ -6,29 +6,22 @@ pub mod impact_propagator;
 pub mod reference_impact;
 pub mod sawtooth_distance;
 
-use std::sync::Arc;
+use jostle::scene::{Kind, Model, Simulation, StructuralParameters, Value};
 
-use jostle::scene::{Choice, Scene, Table, Value, Values};
-
-/// Start values of a scene with some parameters changed.
-pub fn values_of<S: Scene>(choice: Choice, changes: &[(&str, f64)]) -> Values {
-    let mut values = Values::new(Arc::new(Table::new(S::variables(choice))));
+/// A simulation of `disks` disks at time 0 with some parameters changed.
+pub fn simulation_of<M: Model>(disks: u32, changes: &[(&str, f64)]) -> Simulation<M> {
+    let structure = StructuralParameters::choose(&M::info(), &[("disks", disks)]).unwrap();
+    let mut simulation = Simulation::prepare(structure);
     for (name, value) in changes {
-        let value = if *name == "seed" {
-            Value::Integer(*value as i64)
-        } else {
-            Value::Real(*value)
+        let position = simulation.position(name).unwrap();
+        let value = match simulation.variables()[position].kind {
+            Kind::Real(_) => Value::Real(*value),
+            _ => Value::Integer(*value as i64),
         };
-        values.set_by_name(name, value).unwrap();
+        simulation.set_at(position, value).unwrap();
     }
-    values
-}
-
-/// All values of a scene now.
-pub fn outputs_of<S: Scene>(scene: &S, values: &Values) -> Values {
-    let mut seen = values.clone();
-    scene.write_outputs(seen.writer());
-    seen
+    simulation.start(0.0).unwrap();
+    simulation
 }
 
 /// Order of convergence between two errors whose steps differ by `ratio`.

@@ -125,7 +125,7 @@ impl Raw {
         ]
     }
 
-    /// From `start`, the skins not stretched there, in `steps` steps to `duration`.
+    /// From `start`, the tangential springs not stretched there, in `steps` steps to `duration`.
     pub fn run(&self, start: Motion, duration: f64, steps: u64) -> End {
         let h = duration / steps as f64;
         let mut motion = start;

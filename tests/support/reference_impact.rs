@@ -15,7 +15,7 @@ pub struct Impact {
     pub tangential_velocity: f64,
 }
 
-/// Overlap, its rate, surface velocity, stretch of the skin.
+/// Overlap, its rate, surface velocity, stretch of the tangential spring.
 type Phase = [f64; 4];
 
 impl Impact {
@@ -52,7 +52,7 @@ impl Impact {
         std::array::from_fn(|i| phase[i] + step / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
     }
 
-    /// Positive while the present phase goes on: the contact presses, and the skin sticks or slips as it does.
+    /// Positive while the present phase goes on: the contact presses, and the tangential spring sticks or slips as it does.
     fn margins(&self, phase: Phase, slip: Option<f64>) -> [f64; 2] {
         let limit = self.friction * self.force(phase);
         let keeps = match slip {

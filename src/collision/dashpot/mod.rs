@@ -1,13 +1,13 @@
-//! Dashpot restitution: the impact of the molecular dynamics' contact law, done in one go.
+//! Dashpot restitution: the impact of the contact law of soft disks as one impulse.
 //!
-//! Linear dashpot with cut-off along the normal, elastic skin with Amonton's limit along the tangent (`contact`), bodies
+//! Linear dashpot with cut-off along the normal, spring with Coulomb friction along the tangent (`contact`), bodies
 //! that do not move during the impact. `e_n` depends on the damping ratio c alone, `e_t` on |u_t / u_n|, kappa, mu, c.
 //! Source: P 2.3.1, 4.5.
 //!
-//! [`Dashpot`] stitches each impact anew, [`TabulatedDashpot`] looks `e_t` up.
+//! [`Dashpot`] follows the phases of stick and slip of each impact, [`TabulatedDashpot`] has tables of `e_t`.
 
 mod oscillator;
-mod stitching;
+mod stick_slip;
 mod table;
 
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,7 @@ use super::{CollisionLaw, Impact, checked};
 use crate::contact::LinearDashpot;
 use crate::error::{Error, Result};
 use oscillator::Oscillator;
-use stitching::{Skin, Stitching};
+use stick_slip::{StickSlip, TangentialSpring};
 pub use table::TabulatedDashpot;
 
 /// Dashpot restitution, evaluated directly.
@@ -31,8 +31,8 @@ pub struct Dashpot {
 /// Ratio |u_t / u_n| in units of `max(1, mu/kappa)` from which the first stick is too short to matter.
 const SLIDING_RATIO: f64 = 1e14;
 
-/// What stitching takes for each unit of Omega, in events without it.
-const WORK_OF_STITCHING: f64 = 10.0;
+/// Work of the phases of an impact for each unit of Omega, in events of one phase.
+const WORK_OF_PHASES: f64 = 10.0;
 
 impl Dashpot {
     /// Law of normal stiffness k_n > 0 \[N/m\], normal damping gamma_n >= 0 \[kg/s\], stiffness ratio
@@ -47,7 +47,7 @@ impl Dashpot {
             let remedy = "Give the stiffness of the contact in N/m.";
             return Err(Error::parameter(name, normal_stiffness, "above 0, finite", remedy));
         }
-        let remedy = "0 has no skin: surfaces pass each other freely.";
+        let remedy = "0 has no tangential spring: surfaces pass each other freely.";
         Ok(Self {
             normal_stiffness,
             normal_damping: checked("contact.normal_damping", normal_damping, most, "0 loses nothing.")?,
@@ -59,7 +59,7 @@ impl Dashpot {
     /// Law in which bodies of effective mass m \[kg\] have the damping ratio c >= 0.
     ///
     /// # Errors
-    /// As [`Dashpot::new`]; a damping ratio out of range is told as the damping it stands for.
+    /// As [`Dashpot::new`]; a damping ratio out of range is reported as the damping that it gives.
     pub fn of_damping_ratio(
         normal_stiffness: f64,
         damping_ratio: f64,
@@ -96,13 +96,13 @@ impl Dashpot {
         if self.friction == 0.0 || self.stiffness_ratio == 0.0 {
             return 1.0;
         }
-        let stitching = self.stitching(effective_mass, effective_mass / tangential_mass);
+        let stick_slip = self.stick_slip(effective_mass, effective_mass / tangential_mass);
         // Where the surfaces barely slide at all, what is left is rounding.
         let ratio = ratio.max(1e-8 * self.friction.min(1.0));
         if ratio > self.sliding_ratio() {
-            return 1.0 - stitching.full_slide() / ratio;
+            return 1.0 - stick_slip.full_slide() / ratio;
         }
-        (stitching.after(ratio).velocity / ratio).clamp(-1.0, 1.0)
+        (stick_slip.after(ratio).velocity / ratio).clamp(-1.0, 1.0)
     }
 
     /// Ratio |u_t / u_n| from which the surfaces slide to the end once they have started to.
@@ -132,13 +132,13 @@ impl Dashpot {
         SLIDING_RATIO * (self.friction / self.stiffness_ratio).max(1.0)
     }
 
-    fn stitching(&self, effective_mass: f64, mobility: f64) -> Stitching {
-        let skin = Skin {
+    fn stick_slip(&self, effective_mass: f64, mobility: f64) -> StickSlip {
+        let spring = TangentialSpring {
             stiffness_ratio: self.stiffness_ratio,
             friction: self.friction,
             mobility,
         };
-        Stitching::new(skin, Oscillator::new(self.damping_ratio(effective_mass)))
+        StickSlip::new(spring, Oscillator::new(self.damping_ratio(effective_mass)))
     }
 }
 
@@ -156,19 +156,19 @@ impl CollisionLaw for Dashpot {
             return 0.0;
         }
         let limit = self.friction * normal_impulse;
-        let stitching = self.stitching(impact.effective_mass, impact.effective_mass / impact.tangential_mass);
-        let speed = normal_impulse / (impact.effective_mass * (1.0 + stitching.normal.restitution));
+        let stick_slip = self.stick_slip(impact.effective_mass, impact.effective_mass / impact.tangential_mass);
+        let speed = normal_impulse / (impact.effective_mass * (1.0 + stick_slip.normal.restitution));
         let ratio = impact.tangential_velocity.abs() / speed;
         let braking = if ratio < self.sliding_ratio() {
-            (impact.tangential_mass * speed * (ratio - stitching.after(ratio).velocity)).clamp(-limit, limit)
+            (impact.tangential_mass * speed * (ratio - stick_slip.after(ratio).velocity)).clamp(-limit, limit)
         } else {
             limit
         };
         -braking * impact.tangential_velocity.signum()
     }
 
-    /// A skin sticks and slips some Omega times in an impact.
+    /// An impact has some Omega phases of stick and slip.
     fn most_work(&self) -> u64 {
-        (WORK_OF_STITCHING * (1.0 + (3.0 * self.stiffness_ratio).sqrt())) as u64
+        (WORK_OF_PHASES * (1.0 + (3.0 * self.stiffness_ratio).sqrt())) as u64
     }
 }

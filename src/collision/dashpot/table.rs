@@ -7,19 +7,19 @@
 //! until the cubic through four points fits.
 
 use super::super::{CollisionLaw, Impact, Impulse};
-use super::{Dashpot, Stitching};
+use super::{Dashpot, StickSlip};
 
 /// Dashpot restitution from tables, one for each effective mass that was announced.
 ///
 /// `e_t` is within 1e-6 of [`Dashpot`] at every ratio, and `|J_t| <= mu J_n` holds exactly. An impact of an effective
-/// mass that was not announced is stitched directly, so that the result never depends on what was announced by more
+/// mass that was not announced is followed phase by phase, so that the result never depends on what was announced by more
 /// than that.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TabulatedDashpot {
     law: Dashpot,
     /// Every announced mass has its table.
     complete: bool,
-    /// Impacts stitched to make the tables.
+    /// Impacts followed to make the tables.
     samples: usize,
     classes: Vec<Class>,
     /// Open addressing by the bits of the effective mass; `u32::MAX` where free. A power of two long.
@@ -34,7 +34,7 @@ struct Class {
     /// r_0.
     ratio_scale: f64,
     pieces: Vec<Piece>,
-    /// First piece that reaches into each of equally wide cells of y.
+    /// First piece in each of equally wide cells of y.
     guide: [u32; CELLS],
 }
 
@@ -52,9 +52,9 @@ const CELLS: usize = 256;
 const TOLERANCE: f64 = 2e-7;
 /// Pieces narrower than this are kept as they are.
 const NARROWEST: f64 = 1e-9;
-/// Impacts stitched for a table before it is given up: stiff skins have thousands of kinks.
+/// Impacts followed for a table before it is given up: stiff springs have thousands of kinks.
 const MOST_SAMPLES: usize = 20_000;
-/// Where the misfit is looked for; the cubic passes through 0, 1/4, 3/4, 1.
+/// Where the misfit is checked; the cubic passes through 0, 1/4, 3/4, 1.
 const PROBES: [f64; 4] = [0.07, 0.5, 0.62, 0.93];
 
 /// psi at one y, and the sequence of phases there.
@@ -69,8 +69,8 @@ impl TabulatedDashpot {
     /// Tabulates `law` for these effective masses \[kg\] (`collision::effective_mass`, equal bits) and the inertia factor
     /// l of the bodies, 1/2 for disks: rho = 1 + 1/l whatever the masses.
     ///
-    /// Takes some milliseconds and ten kilobytes for each different mass. A skin so stiff that its table would have no
-    /// end is not tabulated but stitched at each impact.
+    /// Takes some milliseconds and ten kilobytes for each different mass. A spring so stiff that its table would have no
+    /// end is not tabulated: each impact is followed phase by phase.
     pub fn new(law: Dashpot, effective_masses: &[f64], inertia_factor: f64) -> Self {
         let mut masses = effective_masses.to_vec();
         masses.sort_by(f64::total_cmp);
@@ -79,7 +79,7 @@ impl TabulatedDashpot {
         let (mut classes, mut samples) = (Vec::new(), 0);
         for mass in masses.iter().rev() {
             // Damping adds switches. Where the table of a mass has no end, those of lighter ones hardly have one, and to
-            // try each of them would take a second a mass; without a table each impact is stitched.
+            // try each of them would take a second a mass; without a table each impact is followed.
             let Some(class) = Class::new(&law, *mass, mobility, &mut samples) else {
                 break;
             };
@@ -113,7 +113,7 @@ impl TabulatedDashpot {
         self.classes.iter().map(|class| class.pieces.len()).sum()
     }
 
-    /// Number of impacts that were stitched to make the tables: what they cost.
+    /// Number of impacts that were followed to make the tables: what they cost.
     pub fn samples(&self) -> usize {
         self.samples
     }
@@ -139,7 +139,7 @@ impl TabulatedDashpot {
     }
 }
 
-/// Where to look first: the mantissa's upper bits, stirred.
+/// First slot to try: a hash of the mantissa's upper bits.
 #[inline]
 fn slot_of(mass: f64, slots: usize) -> usize {
     (mass.to_bits().wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32) as usize & (slots - 1)
@@ -202,10 +202,10 @@ impl Class {
             });
             return Some(class);
         }
-        let stitching = law.stitching(effective_mass, mobility);
-        class.ratio_scale = stitching.full_slide().max(law.friction / law.stiffness_ratio);
-        let (fits, stitched) = class.fit(&stitching);
-        *samples += stitched;
+        let stick_slip = law.stick_slip(effective_mass, mobility);
+        class.ratio_scale = stick_slip.full_slide().max(law.friction / law.stiffness_ratio);
+        let (fits, followed) = class.fit(&stick_slip);
+        *samples += followed;
         if !fits {
             return None;
         }
@@ -219,15 +219,15 @@ impl Class {
         Some(class)
     }
 
-    /// Covers [0, 1] with pieces, from left to right; false if that takes too many. And how many impacts were stitched.
-    fn fit(&mut self, stitching: &Stitching) -> (bool, usize) {
+    /// Covers [0, 1] with pieces, from left to right; false if that takes too many. And how many impacts were followed.
+    fn fit(&mut self, stick_slip: &StickSlip) -> (bool, usize) {
         let scale = self.ratio_scale;
         let samples = std::cell::Cell::new(0);
         let sample = |y: f64| {
             samples.set(samples.get() + 1);
             // The ends stand for ratios so large or small that nothing changes any more.
             let ratio = (scale * (1.0 - y) / y).clamp(1e-8 * scale, 1e8 * scale);
-            let outcome = stitching.after(ratio);
+            let outcome = stick_slip.after(ratio);
             let psi = (ratio - outcome.velocity) / ratio * (ratio + scale) / scale;
             Sample {
                 y,

@@ -18,7 +18,7 @@ pub struct HeldTorque {
 
 impl HeldTorque {
     /// Takes what is given at `time` \[s\] and says whether the torque changes by it.
-    pub fn aim(&mut self, time: f64, torque: f64, rate: f64) -> bool {
+    pub fn set_target(&mut self, time: f64, torque: f64, rate: f64) -> bool {
         let given = Self {
             torque,
             rate,

@@ -2,7 +2,7 @@
 //!
 //! The gap is `G(t) = d + w t - a t^2 / 2 - B (s (cos x - 1) + c (sin x - x))`, `x = omega t`, with B = A n_y and s, c the
 //! sine and cosine of the phase at the start. Because `G'' >= -(a + |B| omega^2)` and `|G'''| <= |B| omega^3`, a parabola
-//! and a cubic below G are known at every instant. The march steps to the root of the one that reaches further: it
+//! and a cubic below G are known at every instant. The march steps to the later of their roots: it
 //! cannot pass a root of G, and near a simple root it converges like Newton's method. While the disk is above the band
 //! that the base sweeps, the march jumps to where it enters it.
 
@@ -70,11 +70,11 @@ impl March {
         } = *self;
         let omega = self.angular_frequency;
         let pull = self.flight.pull;
-        let reach = amplitude.abs();
-        let fall = (pull + reach * omega * omega).max(0.0);
-        let jerk = reach * omega.powi(3);
+        let size = amplitude.abs();
+        let fall = (pull + size * omega * omega).max(0.0);
+        let jerk = size * omega.powi(3);
         // Gap to the highest position of the base, at rest.
-        let above = self.flight.gap - (reach - amplitude * sine);
+        let above = self.flight.gap - (size - amplitude * sine);
         let sinking = self.flight.velocity + amplitude * omega * cosine;
         let mut time = 0.0;
         for step in 0..MOST_STEPS {
@@ -102,7 +102,7 @@ impl March {
                 if step > 0 || gap.curvature != 0.0 || gap.value > 0.0 || parting <= 0.0 {
                     return time;
                 }
-                next = 4.0 * parting / (reach * omega);
+                next = 4.0 * parting / (size * omega);
             }
             time = next;
         }

@@ -1,14 +1,15 @@
 //! Impacts: two bodies that touch, an impulse and its opposite, what is lost.
 
-use crate::collision::{CollisionLaw, Impact, effective_mass, tangential_mass};
+use crate::collision::{CollisionLaw, Impact, Impulse, effective_mass, tangential_mass};
+use crate::geometry::clockwise;
 
-use super::{Boundary, EventDriven, Field, Space, Spin, State};
+use super::{Boundary, EventDriven, EventDrivenState, Space, Spin};
 
-impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
+impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
     /// Impact of two disks that have flown to where they touch.
-    pub(super) fn meet_disk(&mut self, first: u32, second: u32, now: f64) {
+    pub(super) fn collide_disks(&mut self, first: u32, second: u32) {
         let inverse_factor = self.inverse_inertia_factor;
-        let State {
+        let EventDrivenState {
             bodies,
             spins,
             shells,
@@ -17,14 +18,13 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
         } = &mut self.state;
         let (i, j) = (first as usize, second as usize);
         let (a, b) = (bodies[i], bodies[j]);
-        let mut separation = [a.x - b.x, a.y - b.y];
-        let (here, there) = (&shells.listings[i], &shells.listings[j]);
-        if here.at_edge {
-            separation = self.space.shortest(separation);
+        let (entry_a, entry_b) = (&shells.entries[i], &shells.entries[j]);
+        let mut separation = a.position - b.position;
+        if entry_a.at_edge {
+            separation = self.space.nearest_image(separation);
         }
-        let inverse = 1.0 / (separation[0] * separation[0] + separation[1] * separation[1]).sqrt();
-        let n = [separation[0] * inverse, separation[1] * inverse];
-        let (vx, vy) = (a.vx - b.vx, a.vy - b.vy);
+        let normal = separation * (1.0 / separation.norm());
+        let velocity = a.velocity - b.velocity;
         let spin = |disk: usize| if L::ROTATES { spins[disk].angular_velocity } else { 0.0 };
         let since = |disk: usize| {
             if L::REMEMBERS {
@@ -33,37 +33,37 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
                 f64::NEG_INFINITY
             }
         };
-        let turning = a.radius * spin(i) + b.radius * spin(j);
+        let surface = a.radius * spin(i) + b.radius * spin(j);
+        let (inverse_a, inverse_b) = (entry_a.inverse_mass, entry_b.inverse_mass);
         let impact = Impact {
-            effective_mass: effective_mass(here.inverse_mass, there.inverse_mass),
+            effective_mass: effective_mass(inverse_a, inverse_b),
             tangential_mass: tangential_mass(
-                here.inverse_mass,
-                there.inverse_mass,
-                inverse_factor * here.inverse_mass,
-                inverse_factor * there.inverse_mass,
+                inverse_a,
+                inverse_b,
+                inverse_factor * inverse_a,
+                inverse_factor * inverse_b,
             ),
-            normal_velocity: (vx * n[0] + vy * n[1]).min(0.0),
-            tangential_velocity: vx * n[1] - vy * n[0] + turning,
-            time_since_last: now - since(i).max(since(j)),
+            normal_velocity: velocity.dot(&normal).min(0.0),
+            tangential_velocity: velocity.perp(&normal) + surface,
+            time_since_last: a.time - since(i).max(since(j)),
         };
         let impulse = self.law.impulse(&impact);
-        let (along, across) = (impulse.normal, impulse.tangential);
-        let push = [along * n[0] + across * n[1], along * n[1] - across * n[0]];
-        for (disk, signed_inverse_mass) in [(i, here.inverse_mass), (j, -there.inverse_mass)] {
+        let momentum = impulse.normal * normal + impulse.tangential * clockwise(&normal);
+        for (disk, signed_inverse_mass) in [(i, inverse_a), (j, -inverse_b)] {
             let body = &mut bodies[disk];
-            body.vx += push[0] * signed_inverse_mass;
-            body.vy += push[1] * signed_inverse_mass;
+            body.velocity += momentum * signed_inverse_mass;
             body.impacts = body.impacts.wrapping_add(1);
             let lever = inverse_factor * signed_inverse_mass.abs() / body.radius;
-            turn::<L>(&mut spins[disk], lever, across, now);
+            turn::<L>(&mut spins[disk], lever, impulse.tangential, a.time);
         }
         counts.disk_impacts += 1;
-        counts.energy_lost += heat(&impact, along, across);
+        counts.energy_lost += energy_lost(&impact, impulse);
     }
 
-    pub(super) fn meet_wall(&mut self, disk: u32, wall: u32, now: f64) {
+    /// Impact of a disk on a wall that it has flown to.
+    pub(super) fn collide_with_wall(&mut self, disk: u32, wall: u32) {
         let inverse_factor = self.inverse_inertia_factor;
-        let State {
+        let EventDrivenState {
             bodies,
             spins,
             boundary,
@@ -72,48 +72,47 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             ..
         } = &mut self.state;
         let (body, spin) = (&mut bodies[disk as usize], &mut spins[disk as usize]);
-        let inverse_mass = shells.listings[disk as usize].inverse_mass;
+        let inverse_mass = shells.entries[disk as usize].inverse_mass;
         let impact_at = |normal_velocity: f64, tangential_velocity: f64| Impact {
             effective_mass: 1.0 / inverse_mass,
             tangential_mass: tangential_mass(inverse_mass, 0.0, inverse_factor * inverse_mass, 0.0),
             normal_velocity,
             tangential_velocity,
-            time_since_last: now - spin.since,
+            time_since_last: body.time - spin.since,
         };
         // Asked before the tangential velocity is known, which no law needs for the normal one.
         let law = &self.law;
-        let separation = |approach: f64| law.separation_velocity(&impact_at(approach, 0.0));
-        let meeting = boundary.meet(wall, body, now, separation);
-        let n = meeting.normal;
-        let (vx, vy) = (body.vx - meeting.velocity[0], body.vy - meeting.velocity[1]);
-        let turning = if L::ROTATES {
+        let separation_velocity = |approach: f64| law.separation_velocity(&impact_at(approach, 0.0));
+        let contact = boundary.contact(wall, body, separation_velocity);
+        let normal = contact.normal;
+        let velocity = body.velocity - contact.velocity;
+        let surface = if L::ROTATES {
             body.radius * spin.angular_velocity
         } else {
             0.0
         };
-        let impact = impact_at((vx * n[0] + vy * n[1]).min(0.0), vx * n[1] - vy * n[0] + turning);
+        let impact = impact_at(velocity.dot(&normal).min(0.0), velocity.perp(&normal) + surface);
         let impulse = law.impulse(&impact);
-        let (along, across) = (impulse.normal, impulse.tangential);
-        let push = [along * n[0] + across * n[1], along * n[1] - across * n[0]];
-        body.vx += push[0] * inverse_mass;
-        body.vy += push[1] * inverse_mass;
+        let momentum = impulse.normal * normal + impulse.tangential * clockwise(&normal);
+        body.velocity += momentum * inverse_mass;
         body.impacts = body.impacts.wrapping_add(1);
-        turn::<L>(spin, inverse_factor * inverse_mass / body.radius, across, now);
+        let lever = inverse_factor * inverse_mass / body.radius;
+        turn::<L>(spin, lever, impulse.tangential, body.time);
         counts.wall_impacts += 1;
-        counts.energy_lost += heat(&impact, along, across);
-        counts.energy_input += push[0] * meeting.velocity[0] + push[1] * meeting.velocity[1];
+        counts.energy_lost += energy_lost(&impact, impulse);
+        counts.energy_input += momentum.dot(&contact.velocity);
         if boundary.is_base(wall) {
-            counts.base_impulse += push[1];
+            counts.base_impulse += momentum.y;
         }
     }
 }
 
-/// Brings the angle up to `now` and applies the tangential impulse; `lever` = R/I.
+/// Brings the angle up to `now` and applies the tangential impulse J_t; `lever` = R/I.
 #[inline(always)]
-fn turn<L: CollisionLaw>(spin: &mut Spin, lever: f64, across: f64, now: f64) {
+fn turn<L: CollisionLaw>(spin: &mut Spin, lever: f64, tangential_impulse: f64, now: f64) {
     if L::ROTATES {
         spin.angle += spin.angular_velocity * (now - spin.since);
-        spin.angular_velocity += lever * across;
+        spin.angular_velocity += lever * tangential_impulse;
     }
     if L::ROTATES || L::REMEMBERS {
         spin.since = now;
@@ -122,8 +121,8 @@ fn turn<L: CollisionLaw>(spin: &mut Spin, lever: f64, across: f64, now: f64) {
 
 /// Energy lost in an impact \[J\]: minus the work of both impulses at the mean velocities.
 #[inline(always)]
-fn heat(impact: &Impact, along: f64, across: f64) -> f64 {
-    let normal = impact.normal_velocity + 0.5 * along / impact.effective_mass;
-    let tangential = impact.tangential_velocity + 0.5 * across / impact.tangential_mass;
-    -along * normal - across * tangential
+fn energy_lost(impact: &Impact, impulse: Impulse) -> f64 {
+    let normal = impact.normal_velocity + 0.5 * impulse.normal / impact.effective_mass;
+    let tangential = impact.tangential_velocity + 0.5 * impulse.tangential / impact.tangential_mass;
+    -impulse.normal * normal - impulse.tangential * tangential
 }

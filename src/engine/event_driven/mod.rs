@@ -1,16 +1,15 @@
 //! Event-driven dynamics: hard disks on parabolas between instantaneous impacts.
 //!
 //! Needs: disks that do not overlap. Guarantees: impacts in the order of time, momentum to rounding, no drift of a global
-//! clock (each disk keeps its own time and flies only when something happens to it), the same bits wherever one looks and
-//! after any rollback (the calendar is made anew from the disks' next times). A run that makes no headway stops with
+//! clock (each disk keeps its own time and flies only when it has an event), the same bits wherever the run is sampled and
+//! after any rollback (the calendar is rebuilt from the disks' next times). A run that makes no progress stops with
 //! time, place and remedy. Not here: when shapes meet (`geometry::time_of_impact`), what an impact does (`collision`).
 //!
 //! The main loop: next event, fly there, resolve, predict anew. Each disk has one event, its earliest; an event whose
-//! partner has met another in the meantime is recognised by the partner's count of impacts and predicted anew.
+//! partner had another impact in the meantime is recognised by the partner's count of impacts and predicted anew.
 
 mod body;
 mod boundary;
-mod field;
 mod impacts;
 mod observer;
 mod prediction;
@@ -21,55 +20,66 @@ mod space;
 mod state;
 mod walls;
 
-use super::Work;
+use nalgebra::Vector2;
+
+use super::{DiskMotion, WorkBudget};
 use crate::collision::CollisionLaw;
 use crate::geometry::Disk;
 
-pub use body::{Body, Spin};
-pub use boundary::{Boundary, Meeting, Unbounded};
-pub use field::{Field, Gravity, Weightless};
+pub use body::{Body, PackedPartner, Partner, Spin};
+pub use boundary::{Boundary, WallContact, WallHit};
 pub use observer::{Observer, Unobserved};
 pub use sawtooth::Sawtooth;
-pub use space::{Open, Periodic, PeriodicAcross, Space};
-pub use state::{Counts, NoHeadway, Partner, State, Stop};
-pub use walls::{AtRandomPhase, Moving, VibratingBase, Walls};
+pub use space::{Open, Periodic, PeriodicAcross, Region, Space};
+pub use state::{Counts, EventDrivenState, NoHeadway, Stop};
+pub use walls::{Moving, VibratingBase, Walls};
 
 use prediction::Candidate;
 use queue::Calendar;
 use shells::Shells;
-
-/// Partner code: the disk may leave its shell.
-const LEAVES_SHELL: u32 = u32::MAX;
-/// Partner codes from here on are walls.
-const WALLS: u32 = u32::MAX - 32;
+use state::Watch;
 
 /// Local time \[s\] after which its origin moves on, so that differences of times keep their digits in long runs.
 const EPOCH: f64 = 32.0;
 
-/// Events between two looks of the watchdog, and the least time \[s\] that they must take for one disk; for n disks an
+/// Events between two checks of the watchdog, and the least time \[s\] that they must take for one disk; for n disks an
 /// n-th. A collapsed disk goes on with a bounce for each unit in the last place of the time, some 1e-16 s; a disk at
 /// 1e9 m/s leaves its shell as often as that. Disks in a dense packing have 1e6 events a second, not 1e10.
 const WATCH_EVENTS: u64 = 100_000;
 const WATCH_TIME: f64 = 1e-5;
 
-/// The engine: collision law L, boundary B, field F, space S.
+/// The engine: collision law L, boundary B, space S.
 #[derive(Debug, Clone)]
-pub struct EventDriven<L, B, F, S> {
+pub struct EventDriven<L, B, S> {
     law: L,
-    field: F,
+    gravity: f64,
     space: S,
-    state: State<B>,
+    state: EventDrivenState<B>,
     calendar: Calendar,
-    near: Vec<Candidate>,
+    /// Of one prediction.
+    candidates: Vec<Candidate>,
     /// 1/l with the moment of inertia `l m R^2`.
     inverse_inertia_factor: f64,
     work_of_event: u64,
 }
 
+/// What disks move in and how they collide.
+#[derive(Debug, Clone)]
+pub struct Model<L, B, S> {
+    /// Collision law.
+    pub law: L,
+    /// Walls.
+    pub boundary: B,
+    /// Gravity \[m/s2\], downwards; 0 for a gas.
+    pub gravity: f64,
+    /// Open or periodic.
+    pub space: S,
+}
+
 /// How a run is set up, besides its types.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Radius of a shell over the radius of its disk. Wide shells are renewed less often and list more neighbours: 1.3
+    /// Radius of a shell over the radius of its disk. Wide shells are renewed less often and have more neighbours: 1.3
     /// suits packings, whose disks stay where they are, 1.8 a gas.
     pub shell: f64,
     /// Time of the start \[s\].
@@ -88,81 +98,83 @@ impl Default for Settings {
     }
 }
 
-impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
-    /// Disks with their masses \[kg\] and velocities (x, y, angular).
+impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
+    /// Disks with their masses \[kg\] and velocities: x, y \[m/s\], angular \[rad/s\].
     pub fn new(
-        (law, boundary, field, space): (L, B, F, S),
+        model: Model<L, B, S>,
         disks: &[Disk],
         masses: &[f64],
         velocities: &[[f64; 3]],
         settings: Settings,
     ) -> Self {
-        let bodies = disks.iter().zip(velocities).map(|(disk, velocity)| Body {
-            x: disk.x,
-            y: disk.y,
-            vx: velocity[0],
-            vy: velocity[1],
+        let Model {
+            law,
+            boundary,
+            gravity,
+            space,
+        } = model;
+        let bodies = disks.iter().zip(velocities).map(|(disk, &[vx, vy, _])| Body {
+            position: disk.centre(),
+            velocity: [vx, vy].into(),
             time: 0.0,
             radius: disk.radius,
             next_time: f64::INFINITY,
             impacts: 0,
-            partner: LEAVES_SHELL,
+            next_partner: Partner::Shell.into(),
         });
-        let spins = velocities.iter().map(|velocity| Spin {
+        let spins = velocities.iter().map(|&[_, _, angular_velocity]| Spin {
             angle: 0.0,
-            angular_velocity: velocity[2],
+            angular_velocity,
             since: 0.0,
             periods: [0, 0],
         });
-        let state = State {
-            epoch: settings.start_time,
-            bodies: bodies.collect(),
-            spins: spins.collect(),
-            boundary,
-            counts: Counts::default(),
-            shells: Shells::new(&space, disks, masses, settings.shell),
-        };
-        let near = vec![Candidate::default(); 64];
         let largest = disks.iter().map(|disk| disk.radius).fold(0.0, f64::max);
         let mut engine = Self {
-            work_of_event: law.most_work() + state.boundary.most_work(largest),
+            work_of_event: law.most_work() + boundary.most_work(largest),
+            state: EventDrivenState {
+                epoch: settings.start_time,
+                bodies: bodies.collect(),
+                spins: spins.collect(),
+                boundary,
+                counts: Counts::default(),
+                shells: Shells::new(&space, disks, masses, settings.shell),
+            },
             law,
-            field,
+            gravity,
             space,
-            state,
             calendar: Calendar::default(),
-            near,
+            candidates: vec![Candidate::default(); 64],
             inverse_inertia_factor: 1.0 / settings.inertia_factor,
         };
-        for disk in 0..engine.state.bodies.len() as u32 {
+        engine.calendar.reset(disks.len(), f64::INFINITY, 0.0);
+        for disk in 0..disks.len() as u32 {
             engine.find_walls(disk);
+            engine.predict(disk);
         }
-        engine.predict_all(0.0);
+        // The mean delay of an event is known only now.
+        engine.fill_calendar();
         engine
     }
 
     /// Handles all events up to `end_time` \[s\].
     ///
     /// # Errors
-    /// The run makes no headway, or there are more events than one call may handle; the state is then of no use.
+    /// The run makes no progress, or there are more events than one call may handle; the state is then of no use.
     pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stop> {
-        self.advance_observed(end_time, &mut Unobserved)
+        self.advance_within(end_time, &mut Unobserved, &mut WorkBudget::default())
     }
 
-    /// As [`Self::advance_to`], to the bit, and shows the flights that end on the way. What still flies at the end is
-    /// shown by [`Self::show_flights`].
+    /// As [`Self::advance_to`], to the bit, with the work that it takes taken off `work`; shows the flights that end on the
+    /// way. Flights that go on at the end are shown by [`Self::show_flights`].
     ///
     /// # Errors
     /// As [`Self::advance_to`].
-    pub fn advance_observed(&mut self, end_time: f64, observer: &mut impl Observer) -> Result<(), Stop> {
-        self.advance_within(end_time, observer, &mut Work::default())
-    }
-
-    /// As [`Self::advance_observed`], with the work that it takes taken off `work`.
-    ///
-    /// # Errors
-    /// As [`Self::advance_to`].
-    pub fn advance_within(&mut self, end_time: f64, observer: &mut impl Observer, work: &mut Work) -> Result<(), Stop> {
+    pub fn advance_within(
+        &mut self,
+        end_time: f64,
+        observer: &mut impl Observer,
+        work: &mut WorkBudget,
+    ) -> Result<(), Stop> {
         loop {
             let end = end_time - self.state.epoch;
             let bodies = &self.state.bodies;
@@ -180,12 +192,12 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             self.resolve(disk, time, observer).map_err(Stop::NoHeadway)?;
             if time > EPOCH {
                 self.begin_epoch();
-                observer.shift(EPOCH);
+                observer.shift_origin(EPOCH);
             }
         }
     }
 
-    /// Shows the flights that go on at `time` \[s\], as far as that: what an observer needs at its end and nowhere else.
+    /// Shows the flights that go on at `time` \[s\], as far as that: needed once, at the end of an observation.
     pub fn show_flights(&self, time: f64, observer: &mut impl Observer) {
         let now = time - self.state.epoch;
         for (disk, body) in self.state.bodies.iter().enumerate() {
@@ -194,7 +206,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     }
 
     /// The state: all that the future depends on.
-    pub fn state(&self) -> &State<B> {
+    pub fn state(&self) -> &EventDrivenState<B> {
         &self.state
     }
 
@@ -204,79 +216,73 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
     }
 
     /// Goes back (or on) to a state of this run.
-    pub fn restore(&mut self, state: &State<B>) {
+    pub fn restore(&mut self, state: &EventDrivenState<B>) {
         self.state.clone_from(state);
         self.fill_calendar();
     }
 
-    /// Changes the boundary at `time` \[s\] and predicts anew whoever is near a wall before or after.
-    pub fn change_boundary(&mut self, time: f64, change: impl FnOnce(&mut B)) {
-        self.change_boundary_observed(time, change, &mut Unobserved);
-    }
-
-    /// As [`Self::change_boundary`], and shows the flights that it cuts in two.
-    pub fn change_boundary_observed(&mut self, time: f64, change: impl FnOnce(&mut B), observer: &mut impl Observer) {
+    /// Changes the boundary at `time` \[s\] and predicts anew all disks that are near a wall before or after. Shows the
+    /// flights that it cuts in two.
+    pub fn change_boundary(&mut self, time: f64, observer: &mut impl Observer, change: impl FnOnce(&mut B)) {
         change(&mut self.state.boundary);
         let now = time - self.state.epoch;
         for disk in 0..self.state.bodies.len() as u32 {
-            let before = self.state.shells.listings[disk as usize].walls;
+            let before = self.state.shells.entries[disk as usize].walls;
             self.find_walls(disk);
-            if before | self.state.shells.listings[disk as usize].walls != 0 {
+            if before | self.state.shells.entries[disk as usize].walls != 0 {
                 self.fly(disk, now, observer);
-                self.predict(disk, now);
+                self.predict(disk);
             }
         }
     }
 
-    /// Place, velocity, angle and angular velocity of a disk at `time` \[s\], with periods undone.
-    pub fn seen(&self, disk: usize, time: f64) -> ([f64; 2], [f64; 2], f64, f64) {
+    /// Motion of a disk at `time` \[s\]; positions in a periodic cell go on beyond its edges.
+    #[inline(always)]
+    pub fn sample_at(&self, time: f64, disk: usize) -> DiskMotion {
         let now = time - self.state.epoch;
         let (mut body, spin) = (self.state.bodies[disk], &self.state.spins[disk]);
-        body.fly(now, self.field);
-        let [width, height] = self.space.region().1;
-        let place = [
-            body.x + f64::from(spin.periods[0]) * width,
-            body.y + f64::from(spin.periods[1]) * height,
-        ];
-        let angle = spin.angle + spin.angular_velocity * (now - spin.since);
-        (place, [body.vx, body.vy], angle, spin.angular_velocity)
+        body.fly(now, self.gravity);
+        let periods = Vector2::from(spin.periods.map(f64::from));
+        DiskMotion {
+            position: body.position + self.space.region().size.component_mul(&periods),
+            velocity: body.velocity,
+            angle: spin.angle + spin.angular_velocity * (now - spin.since),
+            angular_velocity: spin.angular_velocity,
+        }
     }
 
     #[inline(always)]
     fn fly(&mut self, disk: u32, now: f64, observer: &mut impl Observer) {
         let body = &mut self.state.bodies[disk as usize];
         observer.flight(disk, body, now);
-        body.fly(now, self.field);
+        body.fly(now, self.gravity);
     }
 
     fn resolve(&mut self, disk: u32, now: f64, observer: &mut impl Observer) -> Result<(), NoHeadway> {
-        let partner = self.state.bodies[disk as usize].partner;
+        let partner: Partner = self.state.bodies[disk as usize].next_partner.into();
         self.fly(disk, now, observer);
-        if partner == LEAVES_SHELL {
-            self.renew_shell(disk);
-            self.predict(disk, now);
-            return self.watch(now, (disk, Partner::Shell));
+        match partner {
+            Partner::Shell => self.renew_shell(disk),
+            Partner::Wall(wall) => self.collide_with_wall(disk, wall),
+            Partner::Disk(other) => {
+                let impacts = self.state.bodies[other as usize].impacts;
+                if impacts == self.state.shells.entries[disk as usize].partner_impacts {
+                    self.fly(other, now, observer);
+                    self.collide_disks(disk, other);
+                    self.predict(disk);
+                    self.predict(other);
+                    return self.watch(now, disk, partner);
+                }
+                self.state.counts.stale += 1;
+            }
         }
-        if B::EXISTS && partner >= WALLS {
-            self.meet_wall(disk, partner - WALLS, now);
-            self.predict(disk, now);
-            return self.watch(now, (disk, Partner::Wall(partner - WALLS)));
-        }
-        if self.state.bodies[partner as usize].impacts != self.state.shells.listings[disk as usize].partner_impacts {
-            self.state.counts.stale += 1;
-            self.predict(disk, now);
-            return self.watch(now, (disk, Partner::Disk(partner)));
-        }
-        self.fly(partner, now, observer);
-        self.meet_disk(disk, partner, now);
-        self.predict(disk, now);
-        self.predict(partner, now);
-        self.watch(now, (disk, Partner::Disk(partner)))
+        self.predict(disk);
+        self.watch(now, disk, partner)
     }
 
-    /// The disk may be at the end of its shell: if it is near it, it gets a new shell where it is.
+    /// The disk is near the edge of its shell: it gets a new one around its position.
     fn renew_shell(&mut self, disk: u32) {
-        let State {
+        let EventDrivenState {
             bodies,
             spins,
             shells,
@@ -284,67 +290,50 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             ..
         } = &mut self.state;
         let body = &mut bodies[disk as usize];
-        let place = self.space.wrapped([body.x, body.y]);
-        if place != [body.x, body.y] {
-            let [width, height] = self.space.region().1;
-            let periods = &mut spins[disk as usize].periods;
-            periods[0] += ((body.x - place[0]) / width).round() as i32;
-            periods[1] += ((body.y - place[1]) / height).round() as i32;
-            [body.x, body.y] = place;
+        let position = self.space.wrapped(body.position);
+        if position != body.position {
+            let moved = (body.position - position).component_div(&self.space.region().size);
+            for (periods, moved) in spins[disk as usize].periods.iter_mut().zip(&moved) {
+                *periods += moved.round() as i32;
+            }
+            body.position = position;
         }
-        counts.listings += 1;
-        shells.relist(&self.space, disk, place);
+        counts.list_renewals += 1;
+        shells.renew(&self.space, disk, position);
         self.find_walls(disk);
     }
 
+    /// Finds the walls that the disk may hit while it is in its shell.
     fn find_walls(&mut self, disk: u32) {
-        if B::EXISTS {
-            let State {
-                bodies,
-                shells,
-                boundary,
-                ..
-            } = &mut self.state;
-            let radius = bodies[disk as usize].radius;
-            let distance = radius + shells.slack(radius);
-            let listing = &mut shells.listings[disk as usize];
-            listing.walls = boundary.within_reach(listing.anchor, distance);
-        }
+        let radius = self.state.bodies[disk as usize].radius;
+        let distance = radius + self.state.shells.slack(radius);
+        let entry = &mut self.state.shells.entries[disk as usize];
+        entry.walls = self.state.boundary.walls_within(distance, entry.centre);
     }
 
-    fn watch(&mut self, now: f64, last: (u32, Partner)) -> Result<(), NoHeadway> {
+    fn watch(&mut self, now: f64, disk: u32, partner: Partner) -> Result<(), NoHeadway> {
         let counts = &mut self.state.counts;
-        let since = counts.watched;
-        let events = counts.disk_impacts + counts.wall_impacts + counts.listings + counts.stale;
-        if events - since.0 < WATCH_EVENTS {
+        let since = counts.watched_from;
+        let events = counts.disk_impacts + counts.wall_impacts + counts.list_renewals + counts.stale;
+        if events - since.events < WATCH_EVENTS {
             return Ok(());
         }
         let time = self.state.epoch + now;
-        counts.watched = (events, time);
-        if time - since.1 >= WATCH_TIME / self.state.bodies.len() as f64 {
+        counts.watched_from = Watch { events, time };
+        let (events, duration) = (events - since.events, time - since.time);
+        if duration >= WATCH_TIME / self.state.bodies.len() as f64 {
             return Ok(());
         }
         Err(NoHeadway {
             time,
-            events: events - since.0,
-            took: time - since.1,
-            last,
+            events,
+            duration,
+            disk,
+            partner,
         })
     }
 
-    fn predict_all(&mut self, now: f64) {
-        for disk in 0..self.state.bodies.len() as u32 {
-            self.state.bodies[disk as usize].fly(now, self.field);
-        }
-        self.calendar.reset(self.state.bodies.len(), f64::INFINITY, now);
-        for disk in 0..self.state.bodies.len() as u32 {
-            self.predict(disk, now);
-        }
-        // The delays are known only now.
-        self.fill_calendar();
-    }
-
-    /// Makes the calendar from the disks' next times.
+    /// Rebuilds the calendar from the disks' next times.
     fn fill_calendar(&mut self) {
         let bodies = &self.state.bodies;
         let finite = |body: &&Body| body.next_time.is_finite();
@@ -365,7 +354,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
 
     /// Moves the origin of local time on.
     fn begin_epoch(&mut self) {
-        let State {
+        let EventDrivenState {
             epoch,
             bodies,
             spins,
@@ -373,7 +362,7 @@ impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
             ..
         } = &mut self.state;
         *epoch += EPOCH;
-        boundary.shift(EPOCH);
+        boundary.shift_origin(EPOCH);
         bodies.iter_mut().for_each(|body| {
             body.time -= EPOCH;
             body.next_time -= EPOCH;

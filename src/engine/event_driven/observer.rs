@@ -1,20 +1,20 @@
-//! Who looks on: each piece of flight as it ends. A type, so that a run without an observer compiles none of it.
+//! Observer of a run: each flight as it ends. A type parameter; the one that observes nothing compiles to nothing.
 
 use super::Body;
 
-/// Sees flights and changes nothing.
+/// Is shown flights and changes nothing.
 ///
-/// The flights of a disk that an observer is told follow each other without gap or overlap. The first began when the disk
-/// last met something, which may be before the observer came.
+/// The flights of a disk follow each other without gap or overlap. The first began at the last event of the disk, which
+/// may be before the observation.
 pub trait Observer {
-    /// Disk `disk` has flown freely from where and when `from` is until the local time `until` \[s\].
+    /// Disk `disk` has flown freely from the position and time of `from` until the local time `until` \[s\].
     fn flight(&mut self, disk: u32, from: &Body, until: f64);
 
     /// The origin of local time moves on by `seconds`.
-    fn shift(&mut self, seconds: f64);
+    fn shift_origin(&mut self, seconds: f64);
 }
 
-/// Nobody.
+/// Observes nothing.
 #[derive(Debug, Clone, Copy)]
 pub struct Unobserved;
 
@@ -23,5 +23,5 @@ impl Observer for Unobserved {
     fn flight(&mut self, _disk: u32, _from: &Body, _until: f64) {}
 
     #[inline(always)]
-    fn shift(&mut self, _seconds: f64) {}
+    fn shift_origin(&mut self, _seconds: f64) {}
 }

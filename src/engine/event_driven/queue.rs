@@ -1,9 +1,9 @@
 //! Calendar of events: one time per disk, the earliest first, ties by index.
 //!
-//! Events are never searched for to be taken out: an entry whose time is no longer its disk's next time is stale and is
-//! passed over when it comes up. Buckets of equal width hold what is near; the current bucket is kept sorted, events
+//! Events are never removed before their time: an entry whose time is no longer its disk's next time is stale and is
+//! skipped when it comes up. Buckets of equal width hold the near events; the current bucket is kept sorted, events
 //! beyond the last bucket wait in a list. The order of events depends on times and indices alone, never on the widths, so
-//! that a calendar made anew from the next times continues to the bit.
+//! that a calendar rebuilt from the next times continues to the bit.
 //! Source: Paul 2007, doi:10.1016/j.jcp.2006.06.042, with lazily removed entries.
 
 use std::cmp::Ordering;
@@ -63,7 +63,7 @@ impl Calendar {
         self.put(Entry { time, disk });
     }
 
-    /// The earliest valid event, left in place. `next_time` tells which entries are valid.
+    /// The earliest valid event, left in place. An entry is valid if its time is the `next_time` of its disk.
     #[inline]
     pub fn peek(&mut self, next_time: impl Fn(u32) -> f64) -> Option<(f64, u32)> {
         loop {
@@ -79,7 +79,7 @@ impl Calendar {
         }
     }
 
-    /// Takes out what [`Self::peek`] showed.
+    /// Removes the event that [`Self::peek`] returned.
     #[inline]
     pub fn pop(&mut self) {
         self.current.pop();
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn an_end_of_events_is_told() {
+    fn a_calendar_without_events_to_come_is_empty() {
         let mut calendar = Calendar::default();
         calendar.reset(2, 1.0, 0.0);
         calendar.schedule(0, f64::INFINITY);

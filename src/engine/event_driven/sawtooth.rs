@@ -6,22 +6,31 @@
 //! its root, cannot pass a hit and converges on one like Newton's method. Source: F B.3 and B.4, by other means: no
 //! windows, no end points, no angular ranges.
 
+use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use crate::drive::{BoundedDrive, Motion};
 use crate::geometry::{Flight, SawtoothProfile, disk_wall};
 
-use super::{Body, Boundary, Meeting, Moving, VibratingBase};
+use super::{Body, Boundary, Moving, VibratingBase, WallContact, WallHit};
 
 const BASE: u32 = 0;
 const CEILING: u32 = 1;
 
 /// Gap \[radii\] at which the march takes its last step.
 const TOUCH: f64 = 1e-12;
-/// Gap \[radii\] within which a disk that meets the base may touch two teeth at once.
-const TOGETHER: f64 = 1e-6;
+/// Gap \[radii\] within which a disk that hits the base may touch two teeth at once.
+const TOUCHES_BOTH: f64 = 1e-6;
 /// More than any march takes (some tens); what is left then is a hover within rounding of a touch.
 const MOST_STEPS: usize = 100_000;
+
+/// Gap \[m\] between a disk and a tooth, its rate \[m/s\] and the normal there.
+#[derive(Clone, Copy)]
+struct Gap {
+    value: f64,
+    rate: f64,
+    normal: Vector2<f64>,
+}
 
 /// Teeth on a base that moves, and a ceiling.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -80,39 +89,33 @@ impl<D: BoundedDrive> Sawtooth<D> {
         self.base = base;
     }
 
-    /// Gap \[m\] of a disk `delay` after its place, its rate \[m/s\] and the normal, towards one tooth.
+    /// Gap between one tooth and a disk `delay` \[s\] after the time of `body`, when the base moves as `base`.
     #[inline]
-    fn gap(&self, tooth: i64, body: &Body, base: Motion, delay: f64, gravity: f64) -> (f64, f64, [f64; 2]) {
-        let fall = gravity * delay;
-        let place = [
-            body.x + delay * body.vx,
-            body.y + delay * (body.vy - 0.5 * fall) - base.displacement,
-        ];
-        let (distance, normal) = self.profile.distance(tooth, place);
-        let rate = normal[0] * body.vx + normal[1] * (body.vy - fall - base.velocity);
-        (distance - body.radius, rate, normal)
+    fn gap(&self, tooth: i64, body: &Body, base: Motion, delay: f64, gravity: f64) -> Gap {
+        let (mut position, mut velocity) = body.motion_after(delay, gravity);
+        position.y -= base.displacement;
+        velocity.y -= base.velocity;
+        let clearance = self.profile.clearance(tooth, position);
+        Gap {
+            value: clearance.distance - body.radius,
+            rate: clearance.normal.dot(&velocity),
+            normal: clearance.normal,
+        }
     }
 
-    /// Delay \[s\] of the first hit on a tooth if it comes within `horizon` \[s\].
+    /// Delay \[s\] of the first hit on a tooth if it comes within `horizon` \[s\]; `start` is the motion of the base now.
     #[inline]
-    fn first_hit_of_tooth(
-        &self,
-        tooth: i64,
-        body: &Body,
-        (now, base): (f64, Motion),
-        gravity: f64,
-        horizon: f64,
-    ) -> Option<f64> {
+    fn first_hit_of_tooth(&self, tooth: i64, body: &Body, start: Motion, gravity: f64, horizon: f64) -> Option<f64> {
         let bound = gravity + self.local.greatest_acceleration();
-        let (mut gap, mut rate, _) = self.gap(tooth, body, base, 0.0, gravity);
-        if gap <= 0.0 && rate < 0.0 {
+        let mut gap = self.gap(tooth, body, start, 0.0, gravity);
+        if gap.value <= 0.0 && gap.rate < 0.0 {
             return Some(0.0);
         }
         // The contact just left may overlap by rounding: it is one again when the gap comes back to where it is.
-        let overlap = (-gap).max(0.0);
+        let overlap = (-gap.value).max(0.0);
         let mut delay = 0.0;
         for _ in 0..MOST_STEPS {
-            let above = (gap + overlap).max(0.0);
+            let (above, rate) = ((gap.value + overlap).max(0.0), gap.rate);
             let root = (rate * rate + 2.0 * bound * above).sqrt();
             let step = if rate < 0.0 {
                 2.0 * above / (root - rate)
@@ -127,8 +130,8 @@ impl<D: BoundedDrive> Sawtooth<D> {
                 return Some(next);
             }
             delay = next;
-            let base = self.local.motion(now + delay);
-            (gap, rate, _) = self.gap(tooth, body, base, delay, gravity);
+            let base = self.local.motion(body.time + delay);
+            gap = self.gap(tooth, body, base, delay, gravity);
         }
         Some(delay)
     }
@@ -138,65 +141,64 @@ impl<D: BoundedDrive> Boundary for Sawtooth<D>
 where
     Moving<D>: VibratingBase,
 {
-    const EXISTS: bool = true;
-
-    fn within_reach(&self, [_, y]: [f64; 2], distance: f64) -> u32 {
-        let base = y - distance <= self.profile.top() + self.base.farthest;
-        let ceiling = y + distance >= self.ceiling;
+    fn walls_within(&self, distance: f64, position: Vector2<f64>) -> u32 {
+        let base = position.y - distance <= self.profile.top() + self.base.farthest;
+        let ceiling = position.y + distance >= self.ceiling;
         u32::from(base) << BASE | u32::from(ceiling) << CEILING
     }
 
-    fn first_hit(&self, walls: u32, body: &Body, now: f64, gravity: f64, horizon: f64) -> (f64, u32) {
-        let (mut earliest, mut first) = (f64::INFINITY, BASE);
+    fn first_hit(&self, walls: u32, body: &Body, gravity: f64, horizon: f64) -> WallHit {
+        let mut hit = WallHit::NONE;
         if walls & (1 << CEILING) != 0 {
             let flight = Flight {
-                gap: self.ceiling - body.y - body.radius,
-                velocity: -body.vy,
+                gap: self.ceiling - body.position.y - body.radius,
+                velocity: -body.velocity.y,
                 pull: -gravity,
             };
-            (earliest, first) = (disk_wall(&flight), CEILING);
+            hit = WallHit {
+                delay: disk_wall(&flight),
+                wall: CEILING,
+            };
         }
         if walls & (1 << BASE) == 0 {
-            return (earliest, first);
+            return hit;
         }
-        let mut within = horizon.min(earliest).min(self.local.known_until() - now);
-        let reach = body.radius + body.vx.abs() * within.max(0.0);
-        let (left, right) = self.profile.teeth_between(body.x - reach, body.x + reach);
-        let base = self.local.motion(now);
-        for tooth in left..=right {
-            if let Some(delay) = self.first_hit_of_tooth(tooth, body, (now, base), gravity, within) {
-                (earliest, first, within) = (delay, BASE, delay);
+        let mut within = horizon.min(hit.delay).min(self.local.known_until() - body.time);
+        let half_width = body.radius + body.velocity.x.abs() * within.max(0.0);
+        let start = self.local.motion(body.time);
+        for tooth in self.profile.teeth_within(half_width, body.position.x) {
+            if let Some(delay) = self.first_hit_of_tooth(tooth, body, start, gravity, within) {
+                (hit, within) = (WallHit { delay, wall: BASE }, delay);
             }
         }
-        (earliest, first)
+        hit
     }
 
     /// Of two teeth that the disk touches at once, the one that it approaches faster.
-    fn meet(&mut self, wall: u32, body: &Body, now: f64, _separation: impl Fn(f64) -> f64) -> Meeting {
+    fn contact(&mut self, wall: u32, body: &Body, _separation_velocity: impl Fn(f64) -> f64) -> WallContact {
         if wall == CEILING {
             self.ceiling_hits += 1;
-            return Meeting {
-                normal: [0.0, -1.0],
-                velocity: [0.0, 0.0],
+            return WallContact {
+                normal: Vector2::new(0.0, -1.0),
+                velocity: Vector2::zeros(),
             };
         }
-        let base = self.local.motion(now);
-        let reach = body.radius * (1.0 + TOGETHER);
-        let (left, right) = self.profile.teeth_between(body.x - reach, body.x + reach);
+        let base = self.local.motion(body.time);
+        let half_width = body.radius * (1.0 + TOUCHES_BOTH);
         let (mut least, mut fastest) = (f64::INFINITY, f64::INFINITY);
-        let mut normal = [0.0, 1.0];
-        for tooth in left..=right {
-            let (gap, rate, out) = self.gap(tooth, body, base, 0.0, 0.0);
-            let touches = gap <= TOGETHER * body.radius;
-            let (was_touching, together) = (least <= TOGETHER * body.radius, touches);
-            if (together && (!was_touching || rate < fastest)) || (!was_touching && gap < least) {
-                (fastest, normal) = (rate, out);
+        let mut normal = Vector2::y();
+        for tooth in self.profile.teeth_within(half_width, body.position.x) {
+            let gap = self.gap(tooth, body, base, 0.0, 0.0);
+            let touched = least <= TOUCHES_BOTH * body.radius;
+            let touches = gap.value <= TOUCHES_BOTH * body.radius;
+            if (touches && (!touched || gap.rate < fastest)) || (!touched && gap.value < least) {
+                (fastest, normal) = (gap.rate, gap.normal);
             }
-            least = least.min(gap);
+            least = least.min(gap.value);
         }
-        Meeting {
+        WallContact {
             normal,
-            velocity: [0.0, base.velocity],
+            velocity: Vector2::new(0.0, base.velocity),
         }
     }
 
@@ -204,7 +206,7 @@ where
         wall == BASE
     }
 
-    fn shift(&mut self, seconds: f64) {
+    fn shift_origin(&mut self, seconds: f64) {
         self.origin += seconds;
         self.local = self.base.drive.counted_from(self.origin);
     }
@@ -220,7 +222,7 @@ where
         2
     }
 
-    /// Each tooth within reach is looked at.
+    /// Each tooth under the disk is searched.
     fn most_work(&self, radius: f64) -> u64 {
         (radius / self.profile.width()) as u64
     }

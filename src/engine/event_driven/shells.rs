@@ -1,32 +1,33 @@
-//! Who may meet whom while each disk stays in its shell: neighbour lists that are renewed disk by disk.
+//! Neighbour lists that are renewed disk by disk.
 //!
-//! Each disk has a shell around the place of its last listing, wider than its radius by its slack. Two disks are
-//! neighbours if their shells touch; as long as both stay in their shells no others can meet. Only a disk that leaves its
-//! shell is listed anew, with the help of a grid of cells. Source: Donev, Torquato and Stillinger 2005,
-//! doi:10.1016/j.jcp.2004.08.014, near-neighbour lists.
+//! Each disk has a shell around its position when its list was made, wider than its radius by the slack. Two disks are
+//! neighbours if their shells touch; as long as both stay in their shells, disks that are no neighbours cannot touch. Only
+//! a disk that leaves its shell gets a new list, with the help of a grid of cells. Source: Donev, Torquato and Stillinger
+//! 2005, doi:10.1016/j.jcp.2004.08.014, near-neighbour lists.
 
+use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use crate::error::are_sane;
 use crate::geometry::Disk;
 
-use super::space::Space;
+use super::space::{Region, Space};
 
 const NONE: u32 = u32::MAX;
 
-/// Last listing of a disk, its links in the grid of cells, and what else predictions keep: one cache line.
+/// Shell of a disk, its links in the grid of cells, and what else predictions need: one cache line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[repr(align(64))]
-pub struct Listing {
-    /// Centre \[m\] when it was listed: the middle of its shell.
-    pub anchor: [f64; 2],
-    /// Radius \[m\].
+pub struct ShellEntry {
+    /// Centre of the shell \[m\]: position of the disk when its list was made.
+    pub centre: Vector2<f64>,
+    /// Radius of the disk \[m\].
     radius: f64,
     /// 1/m \[1/kg\].
     pub inverse_mass: f64,
-    /// Count of impacts of the partner when the next event was predicted.
+    /// Impacts of the partner when the next event was predicted.
     pub partner_impacts: u32,
-    /// Bits of the walls within reach of the shell.
+    /// Walls that the disk may hit while it is in its shell, as bits.
     pub walls: u32,
     cell: u32,
     next: u32,
@@ -39,7 +40,7 @@ pub struct Listing {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Shells {
     /// One for each disk.
-    pub listings: Vec<Listing>,
+    pub entries: Vec<ShellEntry>,
     /// Rows of `stride` numbers: how many neighbours, then which.
     rows: Vec<u32>,
     stride: usize,
@@ -49,20 +50,21 @@ pub struct Shells {
     lines: usize,
     /// Radius of a shell over the radius of its disk.
     factor: f64,
-    corner: [f64; 2],
-    per_metre: [f64; 2],
+    corner: Vector2<f64>,
+    /// Cells per metre across and up.
+    cells_per_metre: Vector2<f64>,
 }
 
 impl Shells {
-    /// Lists all disks of these masses \[kg\]; shells are `factor` > 1 times as wide as disks.
+    /// Shells of disks of these masses \[kg\], `factor` > 1 times as wide as disks.
     pub fn new<S: Space>(space: &S, disks: &[Disk], masses: &[f64], factor: f64) -> Self {
-        let (corner, [width, height]) = space.region();
+        let Region { corner, size } = space.region();
         let side = 2.0 * factor * disks.iter().map(|disk| disk.radius).fold(0.0, f64::max);
         let most = (4 * disks.len() + 16) as f64;
-        let columns = (width / side).clamp(1.0, most) as usize;
-        let lines = (height / side).clamp(1.0, (most / columns as f64).max(1.0)) as usize;
-        let listings = disks.iter().zip(masses).map(|(disk, mass)| Listing {
-            anchor: [disk.x, disk.y],
+        let columns = (size.x / side).clamp(1.0, most) as usize;
+        let lines = (size.y / side).clamp(1.0, (most / columns as f64).max(1.0)) as usize;
+        let entries = disks.iter().zip(masses).map(|(disk, mass)| ShellEntry {
+            centre: disk.centre(),
             radius: disk.radius,
             inverse_mass: 1.0 / mass,
             partner_impacts: 0,
@@ -74,7 +76,7 @@ impl Shells {
         });
         let stride = 16;
         let mut shells = Self {
-            listings: listings.collect(),
+            entries: entries.collect(),
             rows: vec![0; stride * disks.len()],
             stride,
             heads: vec![NONE; columns * lines],
@@ -82,11 +84,11 @@ impl Shells {
             lines,
             factor,
             corner,
-            per_metre: [columns as f64 / width, lines as f64 / height],
+            cells_per_metre: Vector2::new(columns as f64, lines as f64).component_div(&size),
         };
         for disk in 0..disks.len() as u32 {
             shells.link::<S>(disk);
-            shells.meet_neighbours(space, disk);
+            shells.add_neighbours(space, disk);
         }
         shells
     }
@@ -98,24 +100,24 @@ impl Shells {
         &row[1..=row[0] as usize]
     }
 
-    /// How far the centre may be from the anchor \[m\].
+    /// How far a disk of this radius may be from the centre of its shell \[m\].
     #[inline]
     pub fn slack(&self, radius: f64) -> f64 {
         (self.factor - 1.0) * radius
     }
 
-    /// Lists a disk anew at `place`.
-    pub fn relist<S: Space>(&mut self, space: &S, disk: u32, place: [f64; 2]) {
+    /// Gives a disk a new shell around `position` \[m\] and a new list.
+    pub fn renew<S: Space>(&mut self, space: &S, disk: u32, position: Vector2<f64>) {
         self.unlink(disk);
-        self.leave_neighbours(disk);
-        self.listings[disk as usize].anchor = place;
+        self.remove_neighbours(disk);
+        self.entries[disk as usize].centre = position;
         self.link::<S>(disk);
-        self.meet_neighbours(space, disk);
+        self.add_neighbours(space, disk);
     }
 
     /// Whether these can be shells of the same disks as `own`: every index exists and every list ends.
     pub fn is_sound(&self, own: &Self) -> bool {
-        let disks = own.listings.len();
+        let disks = own.entries.len();
         let known = |disk: u32| disk == NONE || (disk as usize) < disks;
         let rows_hold = self.stride > 1
             && disks.checked_mul(self.stride) == Some(self.rows.len())
@@ -123,72 +125,74 @@ impl Shells {
                 let count = row[0] as usize;
                 count < self.stride && row[1..=count].iter().all(|&disk| (disk as usize) < disks)
             });
-        let listings_hold = self.listings.len() == disks
-            && self.listings.iter().all(|listing| {
-                known(listing.next) && known(listing.previous) && (listing.cell as usize) < own.heads.len()
-            })
-            && self.listings.iter().zip(&own.listings).all(|(listing, own)| {
-                let same = (listing.radius, listing.inverse_mass) == (own.radius, own.inverse_mass);
-                same && are_sane(listing.anchor)
+        let entries_hold = self.entries.len() == disks
+            && self
+                .entries
+                .iter()
+                .all(|entry| known(entry.next) && known(entry.previous) && (entry.cell as usize) < own.heads.len())
+            && self.entries.iter().zip(&own.entries).all(|(entry, own)| {
+                let same = (entry.radius, entry.inverse_mass) == (own.radius, own.inverse_mass);
+                same && are_sane(entry.centre.iter().copied())
             });
-        let same_scale = (self.factor, self.corner, self.per_metre) == (own.factor, own.corner, own.per_metre);
+        let same_scale =
+            (self.factor, self.corner, self.cells_per_metre) == (own.factor, own.corner, own.cells_per_metre);
         let same_grid = (self.columns, self.lines, self.heads.len()) == (own.columns, own.lines, own.heads.len());
         let heads_hold = self.heads.iter().all(|&head| known(head));
-        rows_hold && listings_hold && same_grid && same_scale && heads_hold && self.chains_hold()
+        rows_hold && entries_hold && same_grid && same_scale && heads_hold && self.chains_hold()
     }
 
     /// Each disk is in one chain, that of its cell, links lead back as they lead on, and no chain is a ring.
     fn chains_hold(&self) -> bool {
-        let mut met = 0;
+        let mut visited = 0;
         for (cell, &head) in self.heads.iter().enumerate() {
             let (mut before, mut disk) = (NONE, head);
             while disk != NONE {
-                let listing = &self.listings[disk as usize];
-                if met == self.listings.len() || listing.cell as usize != cell || listing.previous != before {
+                let entry = &self.entries[disk as usize];
+                if visited == self.entries.len() || entry.cell as usize != cell || entry.previous != before {
                     return false;
                 }
-                met += 1;
-                (before, disk) = (disk, listing.next);
+                visited += 1;
+                (before, disk) = (disk, entry.next);
             }
         }
-        met == self.listings.len()
+        visited == self.entries.len()
     }
 
     fn link<S: Space>(&mut self, disk: u32) {
-        let listing = &mut self.listings[disk as usize];
+        let entry = &mut self.entries[disk as usize];
         let index = |axis: usize, count: usize| {
             // A negative or huge place saturates to the cells at the edge.
-            (((listing.anchor[axis] - self.corner[axis]) * self.per_metre[axis]) as usize).min(count - 1)
+            (((entry.centre[axis] - self.corner[axis]) * self.cells_per_metre[axis]) as usize).min(count - 1)
         };
         let (column, line) = (index(0, self.columns), index(1, self.lines));
-        listing.at_edge = (S::PERIODIC[0] && (column == 0 || column + 1 == self.columns))
+        entry.at_edge = (S::PERIODIC[0] && (column == 0 || column + 1 == self.columns))
             || (S::PERIODIC[1] && (line == 0 || line + 1 == self.lines));
         let cell = line * self.columns + column;
-        listing.cell = cell as u32;
-        listing.next = self.heads[cell];
-        listing.previous = NONE;
-        let next = listing.next;
+        entry.cell = cell as u32;
+        entry.next = self.heads[cell];
+        entry.previous = NONE;
+        let next = entry.next;
         if next != NONE {
-            self.listings[next as usize].previous = disk;
+            self.entries[next as usize].previous = disk;
         }
         self.heads[cell] = disk;
     }
 
     fn unlink(&mut self, disk: u32) {
-        let Listing {
+        let ShellEntry {
             cell, next, previous, ..
-        } = self.listings[disk as usize];
+        } = self.entries[disk as usize];
         if previous == NONE {
             self.heads[cell as usize] = next;
         } else {
-            self.listings[previous as usize].next = next;
+            self.entries[previous as usize].next = next;
         }
         if next != NONE {
-            self.listings[next as usize].previous = previous;
+            self.entries[next as usize].previous = previous;
         }
     }
 
-    fn leave_neighbours(&mut self, disk: u32) {
+    fn remove_neighbours(&mut self, disk: u32) {
         let start = disk as usize * self.stride;
         for entry in 1..=self.rows[start] as usize {
             let other = self.rows[start + entry] as usize * self.stride;
@@ -202,31 +206,31 @@ impl Shells {
         self.rows[start] = 0;
     }
 
-    fn meet_neighbours<S: Space>(&mut self, space: &S, disk: u32) {
-        let Listing {
-            anchor,
+    fn add_neighbours<S: Space>(&mut self, space: &S, disk: u32) {
+        let ShellEntry {
+            centre,
             radius,
             cell,
             at_edge,
             ..
-        } = self.listings[disk as usize];
+        } = self.entries[disk as usize];
         let (line, column) = (cell as usize / self.columns, cell as usize % self.columns);
         for (line, first_line) in around(line, self.lines, S::PERIODIC[1]) {
             for (column, first_column) in around(column, self.columns, S::PERIODIC[0]) {
-                // In a periodic region of one or two cells across, a cell would be met more than once.
+                // In a periodic region of one or two cells across, a cell would be visited more than once.
                 if !(first_line && first_column) {
                     continue;
                 }
                 let mut other = self.heads[line * self.columns + column];
                 while other != NONE {
-                    let there = &self.listings[other as usize];
-                    let mut separation = [anchor[0] - there.anchor[0], anchor[1] - there.anchor[1]];
+                    let there = &self.entries[other as usize];
+                    let mut separation = centre - there.centre;
                     if at_edge {
-                        separation = space.shortest(separation);
+                        separation = space.nearest_image(separation);
                     }
-                    let reach = self.factor * (radius + there.radius);
+                    let radius_sum = self.factor * (radius + there.radius);
                     let next = there.next;
-                    if separation[0] * separation[0] + separation[1] * separation[1] < reach * reach && other != disk {
+                    if separation.norm_squared() < radius_sum * radius_sum && other != disk {
                         self.add(disk, other);
                         self.add(other, disk);
                     }
@@ -263,7 +267,7 @@ impl Shells {
     }
 }
 
-/// The up to three indices around `centre` below `count`, each with whether it is met for the first time.
+/// The up to three indices around `centre` below `count`, each with whether it is visited for the first time.
 #[inline]
 fn around(centre: usize, count: usize, periodic: bool) -> impl Iterator<Item = (usize, bool)> {
     let before = if centre > 0 {

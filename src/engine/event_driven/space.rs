@@ -1,132 +1,89 @@
-//! Where disks live: an open plane with walls, or a periodic cell. A type, so that walled scenes hold no images.
+//! Where disks live: an open plane with walls, or a periodic cell. A type, so that walled scenes have no images.
 
-use serde::{Deserialize, Serialize};
+use nalgebra::Vector2;
+
+/// Rectangle that the cells of the neighbour search divide. Disks beyond an edge that is not periodic belong to the cells
+/// at the edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Region {
+    /// Left and bottom \[m\].
+    pub corner: Vector2<f64>,
+    /// Width and height \[m\].
+    pub size: Vector2<f64>,
+}
 
 /// Shape of space.
-pub trait Space: Clone + Send + 'static {
-    /// Whether cells at opposite edges are neighbours.
+pub trait Space: Copy + Send + 'static {
+    /// Whether opposite edges are the same: left and right, bottom and top.
     const PERIODIC: [bool; 2];
 
-    /// Corner (left, bottom) and size (width, height) \[m\] of the region that the cells divide. Disks beyond an edge
-    /// that is not periodic belong to the cells at the edge.
-    fn region(&self) -> ([f64; 2], [f64; 2]);
+    /// The region; in a periodic direction one period.
+    fn region(&self) -> Region;
 
-    /// Shortest of the separations that are the same.
-    fn shortest(&self, separation: [f64; 2]) -> [f64; 2];
+    /// Shortest of the separations \[m\] of all images of two points.
+    #[inline(always)]
+    fn nearest_image(&self, mut separation: Vector2<f64>) -> Vector2<f64> {
+        let Region { size, .. } = self.region();
+        for axis in (0..2).filter(|&axis| Self::PERIODIC[axis]) {
+            if separation[axis] > 0.5 * size[axis] {
+                separation[axis] -= size[axis];
+            } else if separation[axis] < -0.5 * size[axis] {
+                separation[axis] += size[axis];
+            }
+        }
+        separation
+    }
 
-    /// The same place inside the region, and how many periods it was moved.
-    fn wrapped(&self, place: [f64; 2]) -> [f64; 2];
+    /// The image of a position inside the region, at most one period away.
+    #[inline(always)]
+    fn wrapped(&self, mut position: Vector2<f64>) -> Vector2<f64> {
+        let Region { corner, size } = self.region();
+        for axis in (0..2).filter(|&axis| Self::PERIODIC[axis]) {
+            if position[axis] >= corner[axis] + size[axis] {
+                position[axis] -= size[axis];
+            } else if position[axis] < corner[axis] {
+                position[axis] += size[axis];
+            }
+        }
+        position
+    }
 }
 
-/// Open plane; the box tells where most disks are.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Open {
-    /// Left and bottom \[m\].
-    pub corner: [f64; 2],
-    /// Width and height \[m\].
-    pub size: [f64; 2],
-}
+/// Open plane; most disks are in the region.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Open(pub Region);
+
+/// Region repeated in both directions: the cell of a gas, the standard benchmark of event-driven engines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Periodic(pub Region);
+
+/// Region repeated to the left and right, open above and below.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PeriodicAcross(pub Region);
 
 impl Space for Open {
     const PERIODIC: [bool; 2] = [false, false];
 
-    fn region(&self) -> ([f64; 2], [f64; 2]) {
-        (self.corner, self.size)
-    }
-
     #[inline(always)]
-    fn shortest(&self, separation: [f64; 2]) -> [f64; 2] {
-        separation
+    fn region(&self) -> Region {
+        self.0
     }
-
-    #[inline(always)]
-    fn wrapped(&self, place: [f64; 2]) -> [f64; 2] {
-        place
-    }
-}
-
-/// Cell repeated in both directions.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Periodic {
-    /// Width and height \[m\].
-    pub size: [f64; 2],
 }
 
 impl Space for Periodic {
     const PERIODIC: [bool; 2] = [true, true];
 
-    fn region(&self) -> ([f64; 2], [f64; 2]) {
-        ([0.0, 0.0], self.size)
-    }
-
     #[inline(always)]
-    fn shortest(&self, [mut x, mut y]: [f64; 2]) -> [f64; 2] {
-        let [width, height] = self.size;
-        if x > 0.5 * width {
-            x -= width;
-        } else if x < -0.5 * width {
-            x += width;
-        }
-        if y > 0.5 * height {
-            y -= height;
-        } else if y < -0.5 * height {
-            y += height;
-        }
-        [x, y]
+    fn region(&self) -> Region {
+        self.0
     }
-
-    #[inline(always)]
-    fn wrapped(&self, [mut x, mut y]: [f64; 2]) -> [f64; 2] {
-        let [width, height] = self.size;
-        if x >= width {
-            x -= width;
-        } else if x < 0.0 {
-            x += width;
-        }
-        if y >= height {
-            y -= height;
-        } else if y < 0.0 {
-            y += height;
-        }
-        [x, y]
-    }
-}
-
-/// Cell repeated to the left and right, open above and below.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct PeriodicAcross {
-    /// Period \[m\]; the cell begins at zero.
-    pub width: f64,
-    /// Bottom and height \[m\] of the region where most disks are.
-    pub bottom: f64,
-    /// See `bottom`.
-    pub height: f64,
 }
 
 impl Space for PeriodicAcross {
     const PERIODIC: [bool; 2] = [true, false];
 
-    fn region(&self) -> ([f64; 2], [f64; 2]) {
-        ([0.0, self.bottom], [self.width, self.height])
-    }
-
     #[inline(always)]
-    fn shortest(&self, [mut x, y]: [f64; 2]) -> [f64; 2] {
-        if x > 0.5 * self.width {
-            x -= self.width;
-        } else if x < -0.5 * self.width {
-            x += self.width;
-        }
-        [x, y]
-    }
-
-    #[inline(always)]
-    fn wrapped(&self, [mut x, y]: [f64; 2]) -> [f64; 2] {
-        if x >= self.width {
-            x -= self.width;
-        } else if x < 0.0 {
-            x += self.width;
-        }
-        [x, y]
+    fn region(&self) -> Region {
+        self.0
     }
 }

@@ -6,7 +6,7 @@ use crate::collision::CollisionLaw;
 use crate::error::are_sane;
 
 use super::shells::Shells;
-use super::{Body, Boundary, EventDriven, Field, LEAVES_SHELL, Space, Spin, WALLS};
+use super::{Body, Boundary, EventDriven, Partner, Space, Spin};
 
 /// Farthest local time \[s\] from its origin.
 const FARTHEST: f64 = 1e12;
@@ -30,23 +30,14 @@ pub enum Stop {
 pub struct NoHeadway {
     /// Time \[s\].
     pub time: f64,
-    /// Events since the last look of the watchdog.
+    /// Events in the interval that the watchdog checks.
     pub events: u64,
-    /// Time that they took \[s\].
-    pub took: f64,
-    /// The last two that met; a wall is named by its number.
-    pub last: (u32, Partner),
-}
-
-/// Whom a disk met.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Partner {
-    /// Another disk.
-    Disk(u32),
-    /// A wall.
-    Wall(u32),
-    /// Nobody: it left its shell, which fast disks do often.
-    Shell,
+    /// Duration of that interval \[s\].
+    pub duration: f64,
+    /// Disk of the last event.
+    pub disk: u32,
+    /// Its partner.
+    pub partner: Partner,
 }
 
 /// Sums since the start.
@@ -56,9 +47,9 @@ pub struct Counts {
     pub disk_impacts: u64,
     /// Impacts on walls.
     pub wall_impacts: u64,
-    /// Listings of neighbours.
-    pub listings: u64,
-    /// Events whose partner had met another.
+    /// Renewals of the neighbour list of a disk.
+    pub list_renewals: u64,
+    /// Events whose partner had another impact before.
     pub stale: u64,
     /// Energy lost in impacts \[J\].
     pub energy_lost: f64,
@@ -66,14 +57,21 @@ pub struct Counts {
     pub energy_input: f64,
     /// Vertical impulse of the base on the disks \[N.s\].
     pub base_impulse: f64,
-    /// Events at the last look of the watchdog, and the time then \[s\].
-    pub(super) watched: (u64, f64),
+    /// Start of the interval that the watchdog checks next.
+    pub(super) watched_from: Watch,
+}
+
+/// Events and time \[s\] at a check of the watchdog.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(super) struct Watch {
+    pub(super) events: u64,
+    pub(super) time: f64,
 }
 
 impl Counts {
     /// All events, if there is room for as many again: a damaged count may be anything.
     pub(super) fn events(&self) -> Option<u64> {
-        let counts = [self.disk_impacts, self.wall_impacts, self.listings, self.stale];
+        let counts = [self.disk_impacts, self.wall_impacts, self.list_renewals, self.stale];
         let sum = counts.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count))?;
         (sum < u64::MAX / 2).then_some(sum)
     }
@@ -81,12 +79,12 @@ impl Counts {
 
 /// Everything that changes with time. Times are local: the time is `epoch + local`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct State<B> {
+pub struct EventDrivenState<B> {
     /// Origin of local time \[s\].
     pub epoch: f64,
     /// Disks in flight.
     pub bodies: Vec<Body>,
-    /// Their spins and what goes with impacts.
+    /// Their spins and other data of impacts only.
     pub spins: Vec<Spin>,
     /// Walls.
     pub boundary: B,
@@ -95,41 +93,37 @@ pub struct State<B> {
     pub(super) shells: Shells,
 }
 
-impl<L: CollisionLaw, B: Boundary, F: Field, S: Space> EventDriven<L, B, F, S> {
+impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
     /// Whether `state` can be one of this run: as many disks, and indices that exist.
-    pub fn fits(&self, state: &State<B>) -> bool {
+    pub fn fits(&self, state: &EventDrivenState<B>) -> bool {
         let disks = self.state.bodies.len();
-        let walls = 1_u32
-            .checked_shl(self.state.boundary.count())
-            .unwrap_or(0)
-            .wrapping_sub(1);
+        let walls = self.state.boundary.count();
+        let wall_set = 1_u32.checked_shl(walls).unwrap_or(0).wrapping_sub(1);
         let body_holds = |(body, own): (&Body, &Body)| {
-            let partner_holds = (body.partner as usize) < disks
-                || body.partner == LEAVES_SHELL
-                || (body.partner >= WALLS && body.partner - WALLS < self.state.boundary.count());
-            are_sane([body.x, body.y, body.vx, body.vy])
+            let partner_holds = match body.next_partner.into() {
+                Partner::Disk(disk) => (disk as usize) < disks,
+                Partner::Wall(wall) => wall < walls,
+                Partner::Shell => true,
+            };
+            are_sane(body.position.iter().chain(&body.velocity).copied())
                 && body.radius == own.radius
                 && body.time.abs() <= FARTHEST
                 && body.next_time >= body.time
                 && partner_holds
         };
         let spin_holds = |spin: &Spin| are_sane([spin.angle, spin.angular_velocity]) && spin.since.abs() <= FARTHEST;
-        let Counts {
-            energy_lost,
-            energy_input,
-            base_impulse,
-            watched,
-            ..
-        } = state.counts;
-        let watch_holds = state.counts.events().is_some_and(|events| watched.0 <= events);
+        let counts = &state.counts;
+        let sums = [counts.energy_lost, counts.energy_input, counts.base_impulse];
+        let watch = counts.watched_from;
         state.bodies.len() == disks
             && state.spins.len() == disks
             && state.bodies.iter().zip(&self.state.bodies).all(body_holds)
             && state.spins.iter().all(spin_holds)
-            && are_sane([energy_lost, energy_input, base_impulse, watched.1, state.epoch])
-            && watch_holds
+            && are_sane(sums)
+            && are_sane([watch.time, state.epoch])
+            && counts.events().is_some_and(|events| watch.events <= events)
             && self.state.boundary.fits(&state.boundary, state.epoch)
             && state.shells.is_sound(&self.state.shells)
-            && state.shells.listings.iter().all(|listing| listing.walls & !walls == 0)
+            && state.shells.entries.iter().all(|entry| entry.walls & !wall_set == 0)
     }
 }

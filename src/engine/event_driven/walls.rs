@@ -1,28 +1,17 @@
 //! Straight walls, some of them fixed to a base that vibrates truly or in the random-phase approximation.
 
-use rand_pcg::Pcg64;
-use serde::de::DeserializeOwned;
+use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
-use crate::drive::{Drive, FirstHit, Motion, RandomPhase};
+use crate::drive::{AtRandomPhase, BaseMotion, FirstHit, FollowsInput, Motion};
 use crate::geometry::{Flight, Wall, disk_wall};
 
-use super::{Body, Boundary, Meeting};
+use super::{Body, Boundary, WallContact, WallHit};
 
-/// What the walls that follow the base do. Part of the state.
-pub trait VibratingBase: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static {
+/// Motion of the base of some walls, with a bound on its displacement. Part of the state.
+pub trait VibratingBase: BaseMotion {
     /// Farthest displacement from rest \[m\] until further notice.
     fn farthest(&self) -> f64;
-
-    /// Motion that the geometry sees at `time` \[s\].
-    fn motion(&self, time: f64) -> Motion;
-
-    /// Delay \[s\] from `time` \[s\] of the first hit of a flight relative to the moving wall with normal part n_y up.
-    fn first_hit(&self, time: f64, flight: &Flight, normal_up: f64) -> f64;
-
-    /// Velocity \[m/s\] of the base, up, at the impact at `time` \[s\] of a disk with normal velocity v_n \[m/s\].
-    /// `separation` tells u_n' for u_n.
-    fn velocity(&mut self, time: f64, normal_velocity: f64, normal_up: f64, separation: impl Fn(f64) -> f64) -> f64;
 }
 
 /// Base that moves as its drive says.
@@ -30,18 +19,11 @@ pub trait VibratingBase: Clone + PartialEq + Serialize + DeserializeOwned + Send
 pub struct Moving<D> {
     /// The drive.
     pub drive: D,
-    /// Farthest displacement from rest \[m\] until the drive is aimed anew.
+    /// Farthest displacement from rest \[m\] until the drive has another target.
     pub farthest: f64,
 }
 
-impl<D> VibratingBase for Moving<D>
-where
-    D: Drive + FirstHit,
-{
-    fn farthest(&self) -> f64 {
-        self.farthest
-    }
-
+impl<D: FirstHit> BaseMotion for Moving<D> {
     #[inline]
     fn motion(&self, time: f64) -> Motion {
         self.drive.motion(time)
@@ -53,46 +35,20 @@ where
     }
 
     #[inline]
-    fn velocity(&mut self, time: f64, _: f64, _: f64, _: impl Fn(f64) -> f64) -> f64 {
-        self.drive.motion(time).velocity
+    fn velocity_at_impact(&mut self, motion: Motion, _: f64, _: f64, _: impl Fn(f64) -> bool) -> Option<f64> {
+        Some(motion.velocity)
     }
 }
 
-/// Base that stays in place and lends each impact a velocity (P 2.3.3).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct AtRandomPhase {
-    /// The approximation.
-    pub phase: RandomPhase,
-    /// Source of phases.
-    pub generator: Pcg64,
+impl<D: FirstHit> VibratingBase for Moving<D> {
+    fn farthest(&self) -> f64 {
+        self.farthest
+    }
 }
 
 impl VibratingBase for AtRandomPhase {
     fn farthest(&self) -> f64 {
         0.0
-    }
-
-    #[inline]
-    fn motion(&self, _time: f64) -> Motion {
-        Motion::default()
-    }
-
-    #[inline]
-    fn first_hit(&self, _time: f64, flight: &Flight, _normal_up: f64) -> f64 {
-        disk_wall(flight)
-    }
-
-    /// Drawn again while the disk would not leave. A disk at rest meets the base at rest.
-    #[inline]
-    fn velocity(&mut self, _: f64, normal_velocity: f64, normal_up: f64, separation: impl Fn(f64) -> f64) -> f64 {
-        let leaves = |base: f64| {
-            let (approach, lift) = (normal_velocity - base * normal_up, base * normal_up);
-            approach < 0.0 && separation(approach) + lift > 0.0
-        };
-        let drawn = self
-            .phase
-            .sample_leaving(&mut self.generator, normal_velocity, normal_up, leaves);
-        drawn.unwrap_or(0.0)
     }
 }
 
@@ -107,68 +63,77 @@ pub struct Walls<W> {
     pub origin: f64,
 }
 
-impl<W: VibratingBase> Boundary for Walls<W> {
-    const EXISTS: bool = true;
+impl Walls<Moving<FollowsInput>> {
+    /// No walls: disks in a periodic cell.
+    pub fn none() -> Self {
+        let drive = FollowsInput::uniform(0.0, 0.0, 0.0);
+        Self {
+            walls: Vec::new(),
+            base: Moving { drive, farthest: 0.0 },
+            origin: 0.0,
+        }
+    }
+}
 
-    fn within_reach(&self, [x, y]: [f64; 2], distance: f64) -> u32 {
-        let near = |wall: &Wall| wall.distance(x, y, 0.0) - self.base.farthest() * wall.follows_base <= distance;
-        let bits = self.walls.iter().enumerate().filter(|(_, wall)| near(wall));
-        bits.fold(0, |bits, (index, _)| bits | 1 << index)
+impl<W: VibratingBase> Boundary for Walls<W> {
+    fn walls_within(&self, distance: f64, position: Vector2<f64>) -> u32 {
+        let near = |wall: &Wall| wall.distance(position, 0.0) - self.base.farthest() * wall.follows_base <= distance;
+        let indices = self.walls.iter().enumerate().filter(|(_, wall)| near(wall));
+        indices.fold(0, |set, (index, _)| set | 1 << index)
     }
 
-    fn first_hit(&self, mut walls: u32, body: &Body, now: f64, gravity: f64, horizon: f64) -> (f64, u32) {
-        let time = self.origin + now;
-        let (mut earliest, mut first) = (horizon, 0);
-        let mut found = false;
+    fn first_hit(&self, mut walls: u32, body: &Body, gravity: f64, horizon: f64) -> WallHit {
+        let time = self.origin + body.time;
+        let (mut hit, mut earliest) = (WallHit::NONE, horizon);
         while walls != 0 {
             let index = walls.trailing_zeros();
             walls &= walls - 1;
             let wall = &self.walls[index as usize];
-            let [nx, ny] = wall.normal;
             let mut flight = Flight {
                 gap: 0.0,
-                velocity: nx * body.vx + ny * body.vy,
-                pull: gravity * ny,
+                velocity: wall.normal.dot(&body.velocity),
+                pull: gravity * wall.normal.y,
             };
             let delay = if wall.follows_base == 0.0 {
-                flight.gap = wall.distance(body.x, body.y, 0.0) - body.radius;
+                flight.gap = wall.distance(body.position, 0.0) - body.radius;
                 disk_wall(&flight)
             } else {
                 let base = self.base.motion(time);
-                flight.gap = wall.distance(body.x, body.y, base.displacement) - body.radius;
-                flight.velocity -= ny * base.velocity;
-                self.base.first_hit(time, &flight, ny)
+                flight.gap = wall.distance(body.position, base.displacement) - body.radius;
+                flight.velocity -= wall.normal.y * base.velocity;
+                self.base.first_hit(time, &flight, wall.normal.y)
             };
             if delay < earliest {
-                (earliest, first, found) = (delay, index, true);
+                (earliest, hit) = (delay, WallHit { delay, wall: index });
             }
         }
-        (if found { earliest } else { f64::INFINITY }, first)
+        hit
     }
 
-    fn meet(&mut self, wall: u32, body: &Body, now: f64, separation: impl Fn(f64) -> f64) -> Meeting {
-        let wall = self.walls[wall as usize];
-        let [nx, ny] = wall.normal;
-        if wall.follows_base == 0.0 {
-            return Meeting {
-                normal: wall.normal,
-                velocity: [0.0, 0.0],
+    /// A disk that does not leave whatever the velocity of the base, as one at rest, meets the base at rest.
+    fn contact(&mut self, wall: u32, body: &Body, separation_velocity: impl Fn(f64) -> f64) -> WallContact {
+        let Wall {
+            normal, follows_base, ..
+        } = self.walls[wall as usize];
+        let mut velocity = Vector2::zeros();
+        if follows_base != 0.0 {
+            let motion = self.base.motion(self.origin + body.time);
+            let normal_velocity = normal.dot(&body.velocity);
+            let leaves = |base: f64| {
+                let (approach, lift) = (normal_velocity - base * normal.y, base * normal.y);
+                approach < 0.0 && separation_velocity(approach) + lift > 0.0
             };
+            let sampled = self.base.velocity_at_impact(motion, normal_velocity, normal.y, leaves);
+            velocity.y = sampled.unwrap_or(0.0);
         }
-        let velocity = self
-            .base
-            .velocity(self.origin + now, nx * body.vx + ny * body.vy, ny, separation);
-        Meeting {
-            normal: wall.normal,
-            velocity: [0.0, velocity],
-        }
+        WallContact { normal, velocity }
     }
 
     fn is_base(&self, wall: u32) -> bool {
         self.walls[wall as usize].follows_base != 0.0
     }
 
-    fn shift(&mut self, seconds: f64) {
+    fn shift_origin(&mut self, seconds: f64) {
         self.origin += seconds;
     }
 

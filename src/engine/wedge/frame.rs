@@ -1,10 +1,11 @@
-//! Geometry of a wedge as seen from its two walls: a place on one wall in, the same place seen from the other out.
+//! Geometry of a wedge in the frames of its two walls: a vector in one frame in, the same vector in the other out.
 //!
-//! The centre of a disk moves in the wedge shifted by `R / sin(theta_W / 2)` up the bisector (P 6.6 as corrected). Its
-//! frame is that of one wall: `along` e, up the wall from the vertex, and `above` n, off the wall. Both walls have the
-//! same frame but for a reflection, so that mirrored wedges give mirrored bits, and nothing is divided by an angle: walls
-//! may be horizontal, vertical or hang over.
+//! The centre of a disk moves in the wedge shifted by `R / sin(theta_W / 2)` up the bisector (P 6.6 as corrected). Vectors
+//! in the frame of a wall have the components x along the wall, up from the vertex, and y off the wall, into the wedge.
+//! Both walls have the same frame but for a reflection, so that mirrored wedges give mirrored bits, and nothing is divided
+//! by an angle: walls may be horizontal, vertical or hang over.
 
+use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 
 /// One of the two walls.
@@ -36,47 +37,30 @@ impl Side {
     }
 }
 
-/// A vector in the frame of a wall.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Local {
-    /// Component up the wall, away from the vertex.
-    pub along: f64,
-    /// Component off the wall, into the wedge.
-    pub above: f64,
-}
-
-/// The upward unit vector in the frame of a wall, `(sin alpha, cos alpha)` at a slope alpha.
-pub type Up = Local;
-
 /// A wedge by its aperture and tilt.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Frame {
-    left: Up,
-    right: Up,
-    /// `cos theta_W`, `sin theta_W`.
-    turn: (f64, f64),
+pub struct WedgeFrame {
+    /// The upward unit vector in the frame of each wall, `(sin alpha, cos alpha)` at a slope alpha.
+    left: Vector2<f64>,
+    right: Vector2<f64>,
+    /// From the frame of one wall to that of the other.
+    reflection: Matrix2<f64>,
     /// `cos(theta_W / 2)`, `sin(theta_W / 2)`: up the bisector in the frame of either wall.
-    bisector: Local,
+    bisector: Vector2<f64>,
 }
 
-impl Frame {
+impl WedgeFrame {
     /// Wedge of aperture theta_W \[rad\], tilted counter-clockwise by theta_T \[rad\]: the left wall has the slope
     /// `alpha_1 = theta_0 - theta_T`, the right one `alpha_2 = theta_0 + theta_T`, with `theta_0 = (pi - theta_W) / 2`.
     pub fn new(aperture: f64, tilt: f64) -> Self {
         let critical = Self::critical_tilt(aperture);
-        let up = |slope: f64| Up {
-            along: slope.sin(),
-            above: slope.cos(),
-        };
-        let half = 0.5 * aperture;
+        let up = |slope: f64| Vector2::new(slope.sin(), slope.cos());
+        let ((sine, cosine), half) = (aperture.sin_cos(), 0.5 * aperture);
         Self {
             left: up(critical - tilt),
             right: up(critical + tilt),
-            turn: (aperture.cos(), aperture.sin()),
-            bisector: Local {
-                along: half.cos(),
-                above: half.sin(),
-            },
+            reflection: Matrix2::new(cosine, sine, sine, -cosine),
+            bisector: Vector2::new(half.cos(), half.sin()),
         }
     }
 
@@ -85,37 +69,30 @@ impl Frame {
         0.5 * (std::f64::consts::PI - aperture)
     }
 
-    /// The upward direction seen from a wall.
+    /// The upward unit vector in the frame of a wall.
     #[inline]
-    pub fn up(&self, side: Side) -> Up {
+    pub fn up(&self, side: Side) -> Vector2<f64> {
         match side {
             Side::Left => self.left,
             Side::Right => self.right,
         }
     }
 
-    /// The unit vector up the bisector, seen from either wall.
-    pub fn bisector(&self) -> Local {
+    /// The unit vector up the bisector, the same in the frames of both walls.
+    pub fn bisector(&self) -> Vector2<f64> {
         self.bisector
     }
 
-    /// A vector seen from one wall as seen from the other. Places count from the vertex.
+    /// A vector in the frame of one wall from that of the other. Positions count from the vertex.
     #[inline]
-    pub fn turned(&self, vector: Local) -> Local {
-        let (cosine, sine) = self.turn;
-        Local {
-            along: vector.along * cosine + vector.above * sine,
-            above: vector.along * sine - vector.above * cosine,
-        }
+    pub fn reflected(&self, vector: Vector2<f64>) -> Vector2<f64> {
+        self.reflection * vector
     }
 
-    /// A vector seen from a wall in the laboratory, x to the right and y up.
-    pub fn laboratory(&self, side: Side, vector: Local) -> [f64; 2] {
+    /// A vector in the laboratory, x to the right and y up, from the frame of a wall.
+    pub fn to_laboratory(&self, side: Side, vector: Vector2<f64>) -> Vector2<f64> {
         let up = self.up(side);
-        [
-            side.sign() * (vector.along * up.above - vector.above * up.along),
-            vector.along * up.along + vector.above * up.above,
-        ]
+        Vector2::new(side.sign() * vector.perp(&up), vector.dot(&up))
     }
 }
 
@@ -128,29 +105,26 @@ mod tests {
     #[test]
     fn agrees_with_the_frame_of_walls() {
         for (aperture, tilt) in [(2.1_f64, 0.3), (2.1, -0.3), (1.2, 0.9), (3.0, 0.05), (1.58, 0.78)] {
-            let frame = Frame::new(aperture, tilt);
-            let critical = Frame::critical_tilt(aperture);
+            let frame = WedgeFrame::new(aperture, tilt);
+            let critical = WedgeFrame::critical_tilt(aperture);
             let walls = [-(critical - tilt), critical + tilt].map(Wall::vibrating_slope);
-            let vector = Local {
-                along: 0.7,
-                above: -0.4,
-            };
+            let vector = Vector2::new(0.7, -0.4);
             for (side, wall) in [Side::Left, Side::Right].into_iter().zip(walls) {
-                let [x, y] = frame.laboratory(side, vector);
-                let along = side.sign() * (x * wall.tangent()[0] + y * wall.tangent()[1]);
-                assert!((wall.distance(x, y, 0.0) - vector.above).abs() < 1e-15);
-                assert!((along - vector.along).abs() < 1e-15);
-                let seen = frame.laboratory(side.other(), frame.turned(vector));
-                assert!((seen[0] - x).abs() < 1e-15 && (seen[1] - y).abs() < 1e-15);
-                let [x, y] = frame.laboratory(side, frame.bisector());
-                assert!((x + tilt.sin()).abs() < 1e-15 && (y - tilt.cos()).abs() < 1e-15);
+                let laboratory = frame.to_laboratory(side, vector);
+                let along = side.sign() * laboratory.dot(&wall.tangent());
+                assert!((wall.distance(laboratory, 0.0) - vector.y).abs() < 1e-15);
+                assert!((along - vector.x).abs() < 1e-15);
+                let other = frame.to_laboratory(side.other(), frame.reflected(vector));
+                assert!((other - laboratory).abs() < Vector2::repeat(1e-15));
+                let bisector = frame.to_laboratory(side, frame.bisector());
+                assert!((bisector - Vector2::new(-tilt.sin(), tilt.cos())).abs() < Vector2::repeat(1e-15));
             }
         }
     }
 
     #[test]
     fn mirrored_wedges_have_mirrored_bits() {
-        let (frame, image) = (Frame::new(2.0, 0.4), Frame::new(2.0, -0.4));
+        let (frame, image) = (WedgeFrame::new(2.0, 0.4), WedgeFrame::new(2.0, -0.4));
         assert_eq!(frame.up(Side::Left), image.up(Side::Right));
         assert_eq!(frame.up(Side::Right), image.up(Side::Left));
     }

@@ -1,38 +1,49 @@
 //! One disk in a vibrated wedge, from impact to impact: exact flights, instantaneous impacts.
 //!
-//! With [`Resting`] walls this is the map of P 6.3.1, with [`Moving`] ones the exact event-driven wedge. The map is
-//! written in the place along the wall that was hit last ([`Frame`]) instead of the height y of P 6.16 to 6.39, which
-//! divides by the sine and the cosine of the walls' angles.
+//! With walls [`AtRandomPhase`](crate::drive::AtRandomPhase) this is the map of P 6.3.1, with a drive the exact event-driven
+//! wedge. The map is written in the position along the wall that was hit last ([`WedgeFrame`]) instead of the height y of
+//! P 6.16 to 6.39, which divides by the sine and the cosine of the walls' angles.
 //!
-//! Needs: `|tilt| < theta_0`. Guarantees: the trajectory lives on its impacts alone, so that where and how often one looks
-//! changes no bit of what follows; the gap to the wall just left is zero to the last bit; energy and momentum balance to
-//! rounding ([`Sums`]). Memory does not grow. Not here: what an impact does (`collision`), how the walls move
-//! ([`WallMotion`]).
+//! Needs: `|tilt| < theta_0`. Guarantees: the trajectory depends on its impacts alone, so that where and how often it is
+//! sampled changes no bit of what follows; the gap to the wall just left is zero to the last bit; energy and momentum
+//! balance to rounding ([`Sums`]). Memory does not grow. Not here: what an impact does (`collision`), how the walls move
+//! ([`BaseMotion`]).
 
-mod base;
 mod frame;
 mod state;
 
-use super::Work;
-use crate::collision::{CollisionLaw, Impact, tangential_mass};
-use crate::drive::Motion;
-use crate::geometry::Flight;
+use nalgebra::Vector2;
 
-pub use base::{Moving, Resting, WallMotion};
-pub use frame::{Frame, Local, Side};
-pub use state::{State, Sums, View};
+use super::{DiskMotion, WorkBudget};
+use crate::collision::{CollisionLaw, Impact, tangential_mass};
+use crate::drive::{BaseMotion, Motion};
+use crate::geometry::{Flight, clockwise};
+
+pub use frame::{Side, WedgeFrame};
+pub use state::{Sums, WedgeState};
 
 /// What stays as it is during a run. Mass scales forces and energies only: the motion is that of a unit mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Setup {
+pub struct WedgeSetup {
     /// Aperture and tilt.
-    pub frame: Frame,
+    pub frame: WedgeFrame,
     /// Radius R of the disk \[m\].
     pub radius: f64,
     /// Gravity \[m/s2\], above 0.
     pub gravity: f64,
     /// Impacts that leave the wall at no more than this \[m/s\] are counted as slow: the velocity floor, if there is one.
     pub slow: f64,
+}
+
+/// Start of a disk without spin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Start {
+    /// Time \[s\].
+    pub time: f64,
+    /// Height \[m\] up the bisector from where the disk would touch both walls.
+    pub height: f64,
+    /// Velocity \[m/s\] to the right, across the bisector.
+    pub sideways: f64,
 }
 
 /// What stopped a run.
@@ -56,13 +67,13 @@ pub struct Stuck {
     pub time: f64,
     /// Wall that was hit last.
     pub side: Side,
-    /// Place of the centre along that wall, from the vertex of the shifted wedge \[m\].
+    /// Position of the centre along that wall, from the vertex of the shifted wedge \[m\].
     pub along: f64,
     /// Impacts without progress of time.
     pub collisions: u32,
 }
 
-/// Impacts after which the watchdog looks at the time.
+/// Impacts after which the watchdog checks the time.
 const WATCHED: u32 = 100_000;
 /// Time \[s\] in which so many impacts are no progress: 1e10 impacts a second are none that a run could live through.
 pub const NO_PROGRESS: f64 = 1e-5;
@@ -70,34 +81,28 @@ pub const NO_PROGRESS: f64 = 1e-5;
 /// The engine: impact law L of a disk of unit mass at a wall, motion of the walls B.
 #[derive(Debug, Clone)]
 pub struct DiskInWedge<L, B> {
-    setup: Setup,
+    setup: WedgeSetup,
     law: L,
     tangential_mass: f64,
-    state: State<B>,
+    state: WedgeState<B>,
     work_of_impact: u64,
 }
 
-impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
-    /// A disk without spin at `time` \[s\], `height` \[m\] up the bisector from where it would touch both walls, moving to
-    /// the right, across the bisector, at `sideways` \[m/s\].
-    pub fn new(setup: Setup, law: L, walls: B, time: f64, height: f64, sideways: f64) -> Self {
+impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
+    /// A disk that starts as `start` says.
+    pub fn new(setup: WedgeSetup, law: L, walls: B, start: Start) -> Self {
+        let Start { time, height, sideways } = start;
         let side = if sideways > 0.0 { Side::Right } else { Side::Left };
-        let Local { along, above } = setup.frame.bisector();
-        let state = State {
+        let bisector = setup.frame.bisector();
+        let state = WedgeState {
             base: walls.motion(time),
             walls,
             time,
             side,
-            place: Local {
-                along: height * along,
-                above: height * above,
-            },
-            velocity: Local {
-                along: sideways.abs() * above,
-                above: -sideways.abs() * along,
-            },
+            position: height * bisector,
+            velocity: sideways.abs() * clockwise(&bisector),
             rim_velocity: 0.0,
-            rim_way: 0.0,
+            arc_length: 0.0,
             next_side: side,
             delay: f64::INFINITY,
             sums: Sums::default(),
@@ -121,14 +126,14 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
     /// The disk is stuck, or there are more impacts than one call may do; the state is then that of the last impact and
     /// of no use.
     pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stop> {
-        self.advance_within(end_time, &mut Work::default())
+        self.advance_within(end_time, &mut WorkBudget::default())
     }
 
     /// As [`Self::advance_to`], with the work that it takes taken off `work`.
     ///
     /// # Errors
     /// As [`Self::advance_to`].
-    pub fn advance_within(&mut self, end_time: f64, work: &mut Work) -> Result<(), Stop> {
+    pub fn advance_within(&mut self, end_time: f64, work: &mut WorkBudget) -> Result<(), Stop> {
         while self.state.time + self.state.delay <= end_time {
             if !work.spend(self.work_of_impact) {
                 let (time, most) = (self.state.time, work.most() / self.work_of_impact);
@@ -147,17 +152,16 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
     pub fn next_impact(&mut self) -> Result<(), Stuck> {
         let state = &mut self.state;
         let base = state.walls.motion(state.time + state.delay);
-        let (place, velocity) = flown(&self.setup, state, state.delay, base);
+        (state.position, state.velocity) = motion_after(&self.setup, state, state.delay, base);
         state.time += state.delay;
         state.base = base;
-        state.rim_way += state.rim_velocity * state.delay;
-        (state.place, state.velocity) = if state.next_side == state.side {
-            (place, velocity)
-        } else {
-            (self.setup.frame.turned(place), self.setup.frame.turned(velocity))
-        };
+        state.arc_length += state.rim_velocity * state.delay;
+        if state.next_side != state.side {
+            state.position = self.setup.frame.reflected(state.position);
+            state.velocity = self.setup.frame.reflected(state.velocity);
+        }
         state.side = state.next_side;
-        state.place.above = 0.0;
+        state.position.y = 0.0;
         if !self.bounce() {
             return Err(self.stuck(1));
         }
@@ -170,8 +174,8 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
         let state = &mut self.state;
         let delay = time - state.time;
         let base = state.walls.motion(time);
-        (state.place, state.velocity) = flown(&self.setup, state, delay, base);
-        state.rim_way += state.rim_velocity * delay;
+        (state.position, state.velocity) = motion_after(&self.setup, state, delay, base);
+        state.arc_length += state.rim_velocity * delay;
         state.time = time;
         change(&mut state.walls);
         state.base = state.walls.motion(time);
@@ -179,17 +183,17 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
     }
 
     /// All that the future depends on.
-    pub fn state(&self) -> &State<B> {
+    pub fn state(&self) -> &WedgeState<B> {
         &self.state
     }
 
     /// Goes on from `state`.
-    pub fn restore(&mut self, state: &State<B>) {
+    pub fn restore(&mut self, state: &WedgeState<B>) {
         self.state.clone_from(state);
     }
 
     /// What stays as it is.
-    pub fn setup(&self) -> &Setup {
+    pub fn setup(&self) -> &WedgeSetup {
         &self.setup
     }
 
@@ -198,25 +202,21 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
         self.state.walls.motion(time)
     }
 
-    /// The disk at `time` \[s\], which must lie in the present flight.
-    pub fn view(&self, time: f64) -> View {
-        let (Setup { frame, radius, .. }, state) = (&self.setup, &self.state);
+    /// Motion of the disk at `time` \[s\], which must lie in the present flight, from the wedge's own vertex while the walls
+    /// are at rest.
+    pub fn sample_at(&self, time: f64) -> DiskMotion {
+        let (WedgeSetup { frame, radius, .. }, state) = (&self.setup, &self.state);
         let delay = time - state.time;
         let base = self.base(time);
-        let (place, velocity) = flown(&self.setup, state, delay, base);
+        let (position, velocity) = motion_after(&self.setup, state, delay, base);
         let bisector = frame.bisector();
-        let shift = radius / bisector.above;
-        let [x, y] = frame.laboratory(
-            state.side,
-            Local {
-                along: place.along + shift * bisector.along,
-                above: place.above + radius,
-            },
-        );
-        View {
-            place: [x, y + base.displacement],
-            velocity: frame.laboratory(state.side, velocity),
-            angle: (state.rim_way + state.rim_velocity * delay) / radius,
+        let shift = Vector2::new(radius / bisector.y * bisector.x, *radius);
+        let mut position = frame.to_laboratory(state.side, position + shift);
+        position.y += base.displacement;
+        DiskMotion {
+            position,
+            velocity: frame.to_laboratory(state.side, velocity),
+            angle: (state.arc_length + state.rim_velocity * delay) / radius,
             angular_velocity: state.rim_velocity / radius,
         }
     }
@@ -229,24 +229,24 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
         let impact = |wall_velocity: f64| Impact {
             effective_mass: 1.0,
             tangential_mass: self.tangential_mass,
-            normal_velocity: state.velocity.above - wall_velocity * up.above,
-            tangential_velocity: state.velocity.along - wall_velocity * up.along + sign * state.rim_velocity,
+            normal_velocity: state.velocity.y - wall_velocity * up.y,
+            tangential_velocity: state.velocity.x - wall_velocity * up.x + sign * state.rim_velocity,
             time_since_last: f64::INFINITY,
         };
         let leaves =
-            |wall_velocity: f64| self.law.separation_velocity(&impact(wall_velocity)) + wall_velocity * up.above > 0.0;
+            |wall_velocity: f64| self.law.separation_velocity(&impact(wall_velocity)) + wall_velocity * up.y > 0.0;
         let sampled = state
             .walls
-            .velocity_at_impact(state.base, state.velocity.above, up.above, leaves);
+            .velocity_at_impact(state.base, state.velocity.y, up.y, leaves);
         let Some(wall_velocity) = sampled else {
             return false;
         };
         let before = impact(wall_velocity);
         let impulse = self.law.impulse(&before);
-        state.velocity.above += impulse.normal;
-        state.velocity.along += impulse.tangential;
+        let momentum = Vector2::new(impulse.tangential, impulse.normal);
+        state.velocity += momentum;
         state.rim_velocity += sign * 2.0 * impulse.tangential;
-        let upward = impulse.normal * up.above + impulse.tangential * up.along;
+        let upward = momentum.dot(&up);
         let normal = before.normal_velocity + 0.5 * impulse.normal;
         let tangential = before.tangential_velocity + 0.5 * impulse.tangential / self.tangential_mass;
         state.sums.velocity += upward;
@@ -261,21 +261,20 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
     /// Finds the next impact.
     #[inline]
     fn predict(&mut self) {
-        let (Setup { frame, gravity, .. }, state) = (&self.setup, &mut self.state);
+        let (WedgeSetup { frame, gravity, .. }, state) = (&self.setup, &mut self.state);
         let base = state.base.velocity;
-        let delay = |side: Side, gap: f64, velocity: f64| {
-            let up = frame.up(side).above;
+        let delay = |side: Side, position: Vector2<f64>, velocity: Vector2<f64>| {
+            let up = frame.up(side).y;
             let flight = Flight {
-                gap,
-                velocity: velocity - base * up,
+                gap: position.y,
+                velocity: velocity.y - base * up,
                 pull: gravity * up,
             };
             state.walls.first_hit(state.time, &flight, up)
         };
         let (here, there) = (state.side, state.side.other());
-        let same = delay(here, state.place.above, state.velocity.above);
-        let (place, velocity) = (frame.turned(state.place), frame.turned(state.velocity));
-        let crossing = delay(there, place.above, velocity.above);
+        let same = delay(here, state.position, state.velocity);
+        let crossing = delay(there, frame.reflected(state.position), frame.reflected(state.velocity));
         (state.next_side, state.delay) = if crossing < same {
             (there, crossing)
         } else {
@@ -303,28 +302,25 @@ impl<L: CollisionLaw, B: WallMotion> DiskInWedge<L, B> {
         Stuck {
             time: state.time,
             side: state.side,
-            along: state.place.along,
+            along: state.position.x,
             collisions,
         }
     }
 }
 
-/// Place on the wedge and velocity in the laboratory, `delay` \[s\] after the start of the flight, with the walls at `base`.
+/// Position on the wedge and velocity in the laboratory, `delay` \[s\] after the start of the flight, with the walls at `base`.
 #[inline]
-fn flown<B>(setup: &Setup, state: &State<B>, delay: f64, base: Motion) -> (Local, Local) {
+fn motion_after<B>(
+    setup: &WedgeSetup,
+    state: &WedgeState<B>,
+    delay: f64,
+    base: Motion,
+) -> (Vector2<f64>, Vector2<f64>) {
     let up = setup.frame.up(state.side);
     let rise = base.displacement - state.base.displacement;
     let fall = 0.5 * setup.gravity * delay * delay + rise;
-    let slower = setup.gravity * delay;
-    let (place, velocity) = (state.place, state.velocity);
     (
-        Local {
-            along: place.along + velocity.along * delay - fall * up.along,
-            above: place.above + velocity.above * delay - fall * up.above,
-        },
-        Local {
-            along: velocity.along - slower * up.along,
-            above: velocity.above - slower * up.above,
-        },
+        state.position + state.velocity * delay - fall * up,
+        state.velocity - setup.gravity * delay * up,
     )
 }

@@ -4,34 +4,39 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::drive::FollowsInput;
-use crate::engine::event_driven::{Moving, Partner, Stop};
-use crate::engine::{MOST_WORK_IN_A_CALL, Work};
-use crate::error::{Error, Result, are_sane};
+use crate::drive::{FollowsInput, Motion};
+use crate::engine::event_driven::{Counts, Moving, Partner, Stop};
+use crate::engine::{DiskMotion, MOST_WORK_IN_A_CALL, WorkBudget};
+use crate::error::are_sane;
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::hard_disks::{Energies, Matter, Report};
-use crate::scene::{Card, Choice, Scene};
-use crate::scene::{OutputWriter, Values, Variable};
+use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, radii};
+use crate::scene::hard_disks::{EnergyRows, HardDisksOnBase};
+use crate::scene::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, info};
 
-use super::hard::{EitherModel, HardDisks, HardRun, START_GAP};
-use super::{NAME, disks_of, equations, initial, masses_of, rows};
+use super::either_base::EitherBase;
+use super::equations;
+use super::hard::{HardDisks, HardEngine, START_GAP};
+use super::initial_packing::{self, NAME};
+use super::rows::{self, AtStart};
 
 /// Event-driven packing whose base follows the inputs.
 pub type HardPackingOnInput = HardPacking<HardDisks<Moving<FollowsInput>>>;
 
 /// Event-driven packing on a sine, moving or in the random-phase approximation.
-pub type HardPackingOnSine = HardPacking<EitherModel>;
+pub type HardPackingOnSine = HardPacking<EitherBase>;
 
-/// Hard disks in a box, run by R.
+/// Hard disks in a box, advanced by the engine E.
 #[derive(Debug)]
-pub struct HardPacking<R> {
-    run: R,
+pub struct HardPacking<E> {
+    engine: E,
     masses: Vec<f64>,
     radii: Vec<f64>,
     gravity: f64,
     /// Work that one call may do.
     most_work: u64,
-    report: Report,
+    report: StepReport,
+    /// Total energy at the start \[J\].
+    start_energy: f64,
 }
 
 /// State of a [`HardPacking`].
@@ -40,50 +45,71 @@ pub struct HardPackingState<S> {
     /// The engine's.
     pub engine: S,
     /// The last communication step.
-    pub report: Report,
+    pub report: StepReport,
+    /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
+    pub start_energy: f64,
 }
 
-impl<R: HardRun> HardPacking<R> {
-    /// The engine, to look at everything that is no output.
-    pub fn run(&self) -> &R {
-        &self.run
-    }
-
-    /// Whether everything at `time` \[s\] is finite and far from overflow.
-    fn is_sane(&self, time: f64) -> bool {
-        let (counts, base) = (self.run.counts(), self.run.base(time));
-        let disks_hold = (0..self.radii.len()).all(|disk| {
-            let (place, velocity, angle, angular_velocity) = self.run.seen(disk, time);
-            are_sane(place) && are_sane(velocity) && are_sane([angle, angular_velocity])
-        });
-        disks_hold
-            && are_sane([counts.energy_lost, counts.energy_input, counts.base_impulse])
-            && are_sane([base.displacement, base.velocity, base.acceleration])
-    }
-
-    fn energies(&self) -> Energies {
-        let matter = Matter {
-            masses: &self.masses,
-            gravity: self.gravity,
-            inertia_factor: 0.5,
-        };
-        let seen = self.radii.iter().enumerate().map(|(disk, radius)| {
-            let (place, velocity, _, angular_velocity) = self.run.seen(disk, self.report.time);
-            (*radius, place, velocity, angular_velocity)
-        });
-        Energies::of(matter, seen)
+impl<E: HardEngine> HardPacking<E> {
+    /// The engine, to observe everything that is no output.
+    pub fn engine(&self) -> &E {
+        &self.engine
     }
 }
 
-fn refusal(stop: Stop) -> Error {
+impl<E: HardEngine> DisksOnBase for HardPacking<E> {
+    fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    fn disk_count(&self) -> usize {
+        self.radii.len()
+    }
+
+    fn disk_at(&self, time: f64, disk: usize) -> DiskMotion {
+        self.engine.disk_at(time, disk)
+    }
+
+    fn base_at(&self, time: f64) -> Motion {
+        self.engine.base_at(time)
+    }
+}
+
+impl<E: HardEngine> HardDisksOnBase for HardPacking<E> {
+    fn masses(&self) -> &[f64] {
+        &self.masses
+    }
+
+    fn radius(&self, disk: usize) -> f64 {
+        self.radii[disk]
+    }
+
+    fn gravity(&self) -> f64 {
+        self.gravity
+    }
+
+    fn inertia_factor(&self) -> f64 {
+        0.5
+    }
+
+    fn counts(&self) -> Counts {
+        self.engine.counts()
+    }
+
+    fn start_energy(&self) -> f64 {
+        self.start_energy
+    }
+}
+
+fn refused_step(stop: Stop) -> Error {
     let stop = match stop {
         Stop::NoHeadway(stop) => stop,
         Stop::TooManyEvents { time, most } => {
             return Error::too_much_work(NAME, time, format!("more than {most} events"));
         }
     };
-    let (disk, partner) = (stop.last.0 + 1, stop.last.1);
-    let partner = match partner {
+    let disk = stop.disk + 1;
+    let partner = match stop.partner {
         Partner::Disk(other) => format!("disk {}", other + 1),
         Partner::Shell => "nobody in a flight too fast to follow".into(),
         Partner::Wall(0) => "the base".into(),
@@ -91,11 +117,11 @@ fn refusal(stop: Stop) -> Error {
         Partner::Wall(_) => "the right wall".into(),
     };
     Error::Step {
-        scene: NAME,
+        model: NAME,
         time: stop.time,
         what: format!(
             "no headway: {} events in {:e} s, the last of disk {disk} with {partner}",
-            stop.events, stop.took
+            stop.events, stop.duration
         ),
         remedy: "Does the base throw disks too fast? Check its amplitude and the inputs. Inelastic collapse? Raise \
                  collision.contact_time or lower contact.normal_damping, or use the engine \
@@ -104,20 +130,19 @@ fn refusal(stop: Stop) -> Error {
     }
 }
 
-impl<R: HardRun> Scene for HardPacking<R> {
-    type State = HardPackingState<R::State>;
+impl<E: HardEngine> Model for HardPacking<E> {
+    type State = HardPackingState<E::State>;
 
-    fn card() -> Card {
-        let on_input = R::Base::NAME == "input";
-        Card {
+    fn info() -> ModelInfo {
+        SceneInfo {
             scene: NAME,
-            identifier: if on_input {
+            identifier: if E::Drive::STEERED {
                 "jostle_packing_event_driven"
             } else {
                 "jostle_packing_event_driven_sine"
             },
             engine: "event-driven",
-            drive: R::Base::NAME,
+            drive: E::Drive::NAME,
             description: "Packing of hard frictional disks in a box on a vibrating bottom, event-driven",
             equations: equations::HARD_HTML,
             disks: 1..=100_000,
@@ -125,55 +150,67 @@ impl<R: HardRun> Scene for HardPacking<R> {
             stop_time: 10.0,
             step_size: 1e-2,
         }
+        .into()
     }
 
-    fn variables(choice: Choice) -> Vec<Variable> {
-        rows::hard_rows(choice, R::Base::variables(), R::variables())
-    }
-
-    fn initial_dependencies(name: &str) -> Option<Vec<&'static str>> {
-        Some(initial::of_hard::<R::Base>(name))
-    }
-
-    fn new(choice: Choice, start_time: f64, values: &Values) -> Result<Self> {
-        let disks = disks_of(choice, values, START_GAP)?;
-        let masses = masses_of(&disks, values);
-        let run = R::new(&disks, &masses, start_time, values)?;
-        let radii = disks.iter().map(|disk| disk.radius).collect();
-        let mut packing = Self {
-            run,
-            masses,
-            radii,
-            gravity: values.real("gravity"),
-            report: Report::at_start(start_time),
-            most_work: MOST_WORK_IN_A_CALL,
+    fn variables(structure: &StructuralParameters) -> Vec<Row<Self>> {
+        let disks = info::disks(structure);
+        let at_start = AtStart::of::<E::Drive>(&["base.model"]);
+        let energies = EnergyRows {
+            nominal: 1e-3,
+            potential: "Energy in gravity, zero at the height of the base at rest",
+            lost: "Energy lost in the dashpots and by slip since the start",
+            residual: "Change of energy less work of the base plus losses: the integration's own error",
+            potential_at_start: &at_start.potential_energy,
         };
-        packing.report.start_energy = packing.energies().total();
+        let impacts = "Impacts so far, of disks and on walls";
+        let collisions = Row::output("collisions", Unit::ONE, 1e4, impacts, |packing: &Self| {
+            let counts = packing.counts();
+            (counts.disk_impacts + counts.wall_impacts) as f64
+        });
+        let mut rows = rows::parameters();
+        rows.extend(E::parameters());
+        rows.extend(E::Drive::rows());
+        rows.extend(radii(disks, 0.02, &at_start.radii, Self::radius));
+        rows.extend(rows::means_and_base(&at_start));
+        rows.extend(energies.rows());
+        rows.push(collisions);
+        rows.extend(rows::each_disk(disks, &at_start));
+        complete(rows)
+    }
+
+    fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
+        let disks = initial_packing::disks(info::disks(structure), values, START_GAP)?;
+        let masses = initial_packing::masses(&disks, values);
+        let mut packing = Self {
+            engine: E::new(&disks, &masses, start_time, values)?,
+            masses,
+            radii: disks.iter().map(|disk| disk.radius).collect(),
+            gravity: values.real("gravity"),
+            most_work: MOST_WORK_IN_A_CALL,
+            report: StepReport::at_start(start_time),
+            start_energy: 0.0,
+        };
+        packing.start_energy = packing.energies().total();
         Ok(packing)
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        let backup = self.run.state();
-        let (from, impulse) = (self.report.time, self.run.counts().base_impulse);
-        self.run.aim(from, end_time - from, values);
-        if let Err(stop) = self.run.advance_to(end_time, &mut Work::at_most(self.most_work)) {
-            self.run.restore(&backup);
-            return Err(refusal(stop));
+        let backup = self.engine.state();
+        let (from, impulse) = (self.report.time, self.counts().base_impulse);
+        self.engine.set_target(from, end_time - from, values);
+        let outcome = self
+            .engine
+            .advance_to(end_time, &mut WorkBudget::at_most(self.most_work));
+        let outcome = outcome.map_err(refused_step).and_then(|()| self.check(NAME, end_time));
+        if let Err(error) = outcome {
+            self.engine.restore(&backup);
+            return Err(error);
         }
-        if !self.is_sane(end_time) {
-            self.run.restore(&backup);
-            return Err(Error::Step {
-                scene: NAME,
-                time: end_time,
-                what: "a disk or the base is beyond 1e100 or no longer finite".into(),
-                remedy: "Check the base's amplitude and the inputs.".into(),
-            });
-        }
-        let given = self.run.counts().base_impulse - impulse;
-        self.report = Report {
+        let given = self.counts().base_impulse - impulse;
+        self.report = StepReport {
             time: end_time,
             reaction_force: -given / (end_time - from),
-            ..self.report
         };
         Ok(())
     }
@@ -182,33 +219,11 @@ impl<R: HardRun> Scene for HardPacking<R> {
         self.most_work = most;
     }
 
-    fn write_outputs(&self, mut outputs: OutputWriter<'_>) {
-        let time = self.report.time;
-        let seen: Vec<_> = (0..self.radii.len()).map(|disk| self.run.seen(disk, time)).collect();
-        let count = seen.len() as f64;
-        let (counts, base) = (self.run.counts(), self.run.base(time));
-        outputs.reals("disk.radius", self.radii.iter().copied());
-        outputs.real("mean_velocity", seen.iter().map(|disk| disk.1[0]).sum::<f64>() / count);
-        outputs.real(
-            "mean_angular_velocity",
-            seen.iter().map(|disk| disk.3).sum::<f64>() / count,
-        );
-        outputs.real("base.reaction_force", self.report.reaction_force);
-        outputs.real("base.position", base.displacement);
-        outputs.real("base.acceleration", base.acceleration);
-        self.energies().write(&mut outputs, &counts, self.report.start_energy);
-        outputs.real("collisions", (counts.disk_impacts + counts.wall_impacts) as f64);
-        outputs.reals("disk.angle", seen.iter().map(|disk| disk.2));
-        outputs.reals("disk.angular_velocity", seen.iter().map(|disk| disk.3));
-        outputs.reals("disk.x", seen.iter().map(|disk| disk.0[0]));
-        outputs.reals("disk.y", seen.iter().map(|disk| disk.0[1]));
-        outputs.finish();
-    }
-
     fn state(&self) -> Self::State {
         HardPackingState {
-            engine: self.run.state(),
+            engine: self.engine.state(),
             report: self.report,
+            start_energy: self.start_energy,
         }
     }
 
@@ -218,16 +233,17 @@ impl<R: HardRun> Scene for HardPacking<R> {
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
         let remedy = "Restore states of the same scene, disk count and parameters only.";
-        if !(self.run.fits(&state.engine) && state.report.is_sane()) {
+        let report_holds = state.report.is_sane() && are_sane([state.start_energy]);
+        if !(self.engine.fits(&state.engine) && report_holds) {
             return Err(Error::state("it is not a state of this run", remedy));
         }
-        let former = self.run.state();
-        self.run.restore(&state.engine);
+        let former = self.engine.state();
+        self.engine.restore(&state.engine);
         if !self.is_sane(state.report.time) {
-            self.run.restore(&former);
+            self.engine.restore(&former);
             return Err(Error::state("it holds numbers that no packing has", remedy));
         }
-        self.report = state.report;
+        (self.report, self.start_energy) = (state.report, state.start_energy);
         Ok(())
     }
 }

@@ -1,79 +1,95 @@
-//! The variables of the packing scene.
+//! Rows that both kinds of packings have, and what they depend on at the start: where the disks lie and where the base is.
 
-use crate::scene::Choice;
-use crate::scene::{Unit, Variable};
+use std::sync::Arc;
+
+use crate::scene::base_drive::BaseDrive;
+use crate::scene::disks_on_base::{
+    BaseRows, DisksOnBase, heights, horizontal_positions, mean_angular_velocity, mean_velocity, names, rotations,
+};
+use crate::scene::{Row, Unit};
 
 /// Names of the three radii that share the disks equally.
 pub const RADII: [&str; 3] = ["disk.radius_small", "disk.radius_medium", "disk.radius_large"];
 
-/// Parameters, inputs, calculated parameters and outputs, with those of the integration and the drive.
-pub fn rows(choice: Choice, integration: Vec<Variable>, drive: Vec<Variable>) -> Vec<Variable> {
-    let mut rows = parameters();
-    rows.extend(integration);
-    rows.extend(drive);
-    rows.extend(calculated(choice.disks));
-    rows.extend(outputs(choice.disks));
-    rows
+/// Radii in their order, and the box: the packing on a base at height zero.
+pub const PLACES: &[&str] = &["seed", "box.width", RADII[0], RADII[1], RADII[2]];
+
+/// What outputs depend on before the first step.
+pub struct AtStart {
+    /// Radii of the disks.
+    pub radii: Arc<[&'static str]>,
+    /// Heights of the disks.
+    pub heights: Arc<[&'static str]>,
+    /// Energy in gravity.
+    pub potential_energy: Arc<[&'static str]>,
+    /// Displacement of the base.
+    pub base_position: Arc<[&'static str]>,
+    /// Acceleration of the base.
+    pub base_acceleration: Arc<[&'static str]>,
 }
 
-/// Value of `base.model` for the fixed bottom with a random phase (P 2.3.3); the other is the moving bottom.
-pub const RANDOM_PHASE: i64 = 1;
+impl AtStart {
+    /// With the drive D; `base_model` names the parameter that may hold the base at rest, if there is one.
+    pub fn of<D: BaseDrive>(base_model: &[&'static str]) -> Self {
+        let position = [D::DISPLACEMENT_AT_START, base_model].concat();
+        Self {
+            radii: names(&[&RADII, &["seed"]]),
+            heights: names(&[PLACES, &position]),
+            potential_energy: names(&[PLACES, &position, &["gravity", "disk.surface_density"]]),
+            base_acceleration: names(&[D::ACCELERATION_AT_START, base_model]),
+            base_position: position.into(),
+        }
+    }
+}
 
-/// Parameter of the event-driven packing on a sine.
-pub fn base_model() -> Variable {
-    const OPTIONS: &[(&str, &str)] = &[
-        (
-            "random_phase",
-            "Fixed bottom that lends each impact the velocity of a base of random phase",
-        ),
-        ("moving", "Bottom that moves"),
+/// Means over the disks and motion of the base, which come before the energies.
+pub fn means_and_base<M: DisksOnBase>(at_start: &AtStart) -> Vec<Row<M>> {
+    let base = BaseRows {
+        force: 1.0,
+        bodies: "disks on the base",
+        note: "",
+        position_at_start: &at_start.base_position,
+        acceleration_at_start: &at_start.base_acceleration,
+    };
+    let mut rows = vec![
+        mean_velocity(0.1, "Mean horizontal velocity of the disks now"),
+        mean_angular_velocity(1.0, "Mean angular velocity of the disks now, counter-clockwise"),
     ];
-    Variable::enumeration_parameter(
-        "base.model",
-        "base_model",
-        OPTIONS,
-        2,
-        "What the bottom of the box does",
-    )
-}
-
-/// Rows of the event-driven packing: no integration, no springs, impacts instead of contacts.
-pub fn hard_rows(choice: Choice, drive: Vec<Variable>, further: Vec<Variable>) -> Vec<Variable> {
-    let absent = ["chosen_time_step", "largest_time_step", "energy.elastic", "contacts"];
-    let mut rows = parameters();
-    rows.extend(further);
-    rows.extend(drive);
-    rows.extend(calculated(choice.disks));
-    rows.extend(outputs(choice.disks));
-    rows.retain(|row| !absent.contains(&row.name.as_str()));
-    let energies = rows
-        .iter()
-        .position(|row| row.name == "disk.angle[1]")
-        .unwrap_or(rows.len());
-    rows.insert(
-        energies,
-        Variable::output("collisions", Unit::One, 1e4, "Impacts so far, of disks and on walls"),
-    );
+    rows.extend(base.rows());
     rows
 }
 
-fn parameters() -> Vec<Variable> {
+/// Motion of each disk, which comes last.
+pub fn each_disk<M: DisksOnBase>(disks: u32, at_start: &AtStart) -> Vec<Row<M>> {
+    let angle = "Angle turned, counter-clockwise and unwrapped, of disk {}";
+    let rate = "Angular velocity, counter-clockwise, of disk {}";
+    let across = "Distance of the centre to the right of the middle of the box of disk {}";
+    let up = "Height of the centre above the base at rest of disk {}";
+    let places = PLACES.into();
+    rotations(disks, angle, 1.0, rate)
+        .chain(horizontal_positions(disks, 0.1, across).map(|row| row.depending_on(&places)))
+        .chain(heights(disks, 0.1, up).map(|row| row.depending_on(&at_start.heights)))
+        .collect()
+}
+
+/// Parameters that both kinds of packings have.
+pub fn parameters<M>() -> Vec<Row<M>> {
     let radius = |name: &str, start: f64, which: &str| {
         let description = format!("Radius of the {which} third of the disks");
-        Variable::parameter(name, Unit::Metre, 1e-6..=1e3, start, &description)
+        Row::parameter(name, Unit::METRE, 1e-6..=1e3, start, &description)
     };
     vec![
-        Variable::parameter(
+        Row::parameter(
             "gravity",
-            Unit::MetrePerSecondSquared,
+            Unit::METRE_PER_SECOND_SQUARED,
             0.0..=1e4,
             9.8,
             "Gravity, downwards",
         ),
-        Variable::long_parameter("seed", 0..=i64::MAX, 1, "Seed of the order of the radii in the packing"),
-        Variable::parameter(
+        Row::long_parameter("seed", 0..=i64::MAX, 1, "Seed of the order of the radii in the packing"),
+        Row::parameter(
             "box.width",
-            Unit::Metre,
+            Unit::METRE,
             1e-6..=1e6,
             0.40,
             "Inner width of the box; its middle is x = 0",
@@ -81,37 +97,37 @@ fn parameters() -> Vec<Variable> {
         radius(RADII[0], 0.015, "first"),
         radius(RADII[1], 0.020, "second"),
         radius(RADII[2], 0.025, "last"),
-        Variable::parameter(
+        Row::parameter(
             "disk.surface_density",
-            Unit::KilogramPerSquareMetre,
+            Unit::KILOGRAM_PER_SQUARE_METRE,
             1e-9..=1e9,
             3.57,
             "Mass of a disk over its area",
         ),
-        Variable::parameter(
+        Row::parameter(
             "contact.normal_stiffness",
-            Unit::NewtonPerMetre,
+            Unit::NEWTON_PER_METRE,
             1e-3..=1e15,
             1e4,
             "Normal stiffness k_n of every contact",
         ),
-        Variable::parameter(
+        Row::parameter(
             "contact.stiffness_ratio",
-            Unit::One,
+            Unit::ONE,
             0.0..=1e9,
             0.77,
             "Tangential over normal stiffness, kappa = k_t / k_n",
         ),
-        Variable::parameter(
+        Row::parameter(
             "contact.normal_damping",
-            Unit::KilogramPerSecond,
+            Unit::KILOGRAM_PER_SECOND,
             0.0..=1e9,
             0.1,
             "Normal damping gamma_n of every contact",
         ),
-        Variable::parameter(
+        Row::parameter(
             "contact.friction",
-            Unit::One,
+            Unit::ONE,
             0.0..=1e6,
             0.1,
             "Friction coefficient mu of every contact",
@@ -120,102 +136,6 @@ fn parameters() -> Vec<Variable> {
 }
 
 /// Parameter that sets the time step, or leaves it to the engine.
-pub fn time_step(description: &str) -> Variable {
-    Variable::parameter("time_step", Unit::Second, 0.0..=1.0, 0.0, description).with_nominal(1e-5)
-}
-
-fn calculated(disks: u32) -> Vec<Variable> {
-    let mut rows = vec![
-        Variable::calculated("chosen_time_step", Unit::Second, 1e-5, "Time step in use"),
-        Variable::calculated(
-            "largest_time_step",
-            Unit::Second,
-            1e-4,
-            "Largest time step that would be accepted",
-        ),
-    ];
-    rows.extend((1..=disks).map(|disk| {
-        let description = format!("Radius of disk {disk}");
-        Variable::calculated(format!("disk.radius[{disk}]"), Unit::Metre, 0.02, description)
-    }));
-    rows
-}
-
-fn outputs(disks: u32) -> Vec<Variable> {
-    let energy = |name: &str, description: &str| Variable::output(name, Unit::Joule, 1e-3, description);
-    let mut rows = vec![
-        Variable::output(
-            "mean_velocity",
-            Unit::MetrePerSecond,
-            0.1,
-            "Mean horizontal velocity of the disks now",
-        ),
-        Variable::output(
-            "mean_angular_velocity",
-            Unit::RadianPerSecond,
-            1.0,
-            "Mean angular velocity of the disks now, counter-clockwise",
-        ),
-        Variable::output(
-            "base.reaction_force",
-            Unit::Newton,
-            1.0,
-            "Vertical force of the disks on the base, up: impulse over the last communication step divided by its length",
-        ),
-        Variable::output("base.position", Unit::Metre, 1e-3, "Displacement of the base now, up"),
-        Variable::output(
-            "base.acceleration",
-            Unit::MetrePerSecondSquared,
-            10.0,
-            "Acceleration of the base now, up",
-        ),
-        energy("energy.kinetic", "Kinetic energy of translation and rotation"),
-        energy(
-            "energy.potential",
-            "Energy in gravity, zero at the height of the base at rest",
-        ),
-        energy("energy.elastic", "Energy in the springs and skins of closed contacts"),
-        energy("energy.input", "Work done by the base on the disks since the start"),
-        energy("energy.lost", "Energy lost in the dashpots and by slip since the start"),
-        energy(
-            "energy.residual",
-            "Change of energy less work of the base plus losses: the integration's own error",
-        ),
-        Variable::count_output("contacts", "Closed contacts, with the walls and the base"),
-    ];
-    let mut each = |prefix: &str, unit: Unit, nominal: f64, what: &str| {
-        rows.extend((1..=disks).map(|disk| {
-            Variable::output(
-                format!("{prefix}[{disk}]"),
-                unit,
-                nominal,
-                format!("{what} of disk {disk}"),
-            )
-        }));
-    };
-    each(
-        "disk.angle",
-        Unit::Radian,
-        1.0,
-        "Angle turned, counter-clockwise and unwrapped,",
-    );
-    each(
-        "disk.angular_velocity",
-        Unit::RadianPerSecond,
-        1.0,
-        "Angular velocity, counter-clockwise,",
-    );
-    each(
-        "disk.x",
-        Unit::Metre,
-        0.1,
-        "Distance of the centre to the right of the middle of the box",
-    );
-    each(
-        "disk.y",
-        Unit::Metre,
-        0.1,
-        "Height of the centre above the base at rest",
-    );
-    rows
+pub fn time_step<M>(description: &str) -> Row<M> {
+    Row::parameter("time_step", Unit::SECOND, 0.0..=1.0, 0.0, description).with_nominal(1e-5)
 }

@@ -28,5 +28,5 @@ continues its displacement and velocity and ends at <code>base.displacement</cod
 <p>The first hit on a tooth is found for certain: a parabola below the gap is known at every instant, and the search
 steps to its root.</p>
 <p>Source: Z. Farkas, P. Tegzes, A. Vukics, T. Vicsek, Transitions in the horizontal transport of vertically vibrated
-granular layers, Phys. Rev. E 60 (1999) 7022, sections III, IV and appendices A, B.</p>
+granular layers, Phys. Rev. E 60, 7022 (1999), sections III, IV and appendices A, B.</p>
 ";

@@ -1,12 +1,13 @@
-//! Fields of the flow over a sine: what to look at in, the observer that gathers it out.
+//! Fields of the flow over a sine: a resolution in, the observer that accumulates them out.
 
 use crate::drive::Sine;
-use crate::error::Result;
+use crate::engine::event_driven::Space;
 use crate::measure::{FlowFields, Grid};
+use crate::scene::Result;
 
 use super::RatchetOnSine;
 
-/// How finely flow is looked at.
+/// Resolution of the fields in space and phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Resolution {
     /// Square boxes across a tooth.
@@ -37,7 +38,7 @@ impl RatchetOnSine {
         let state = self.engine.state();
         let (profile, drive): (_, Sine) = (state.boundary.profile(), state.boundary.base().drive);
         let teeth = if resolution.whole_cell {
-            (self.engine.space().width / profile.width()).round() as u32
+            (self.engine.space().region().size.x / profile.width()).round() as u32
         } else {
             1
         };
@@ -47,8 +48,9 @@ impl RatchetOnSine {
             phases: resolution.phases,
             ceiling: state.boundary.ceiling(),
         };
-        let times = (self.report.time, state.epoch);
-        FlowFields::new(grid, self.masses.clone(), self.gravity, drive, times)
+        let (masses, start) = (self.masses.clone(), self.report.time);
+        let fields = FlowFields::new(grid, masses, self.gravity, drive, start, state.epoch)?;
+        Ok(fields)
     }
 
     /// Shows the flights that still go on: once, when nothing more is to be observed. Returns the present time \[s\].

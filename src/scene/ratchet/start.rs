@@ -3,12 +3,13 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
+use crate::engine::event_driven::{PeriodicAcross, Region};
 use crate::error::{Error, Result};
-use crate::geometry::{Disk, SawtoothProfile};
+use crate::geometry::{Disk, SawtoothProfile, Vector2};
 use crate::packing::RadiusDistribution;
-use crate::scene::{Choice, Values};
+use crate::scene::Values;
 
-use super::rows::EQUAL_MASS;
+use super::parameters::EQUAL_MASS;
 
 /// Distance of neighbours in the rows over the largest diameter.
 const PITCH: f64 = 1.1;
@@ -16,8 +17,11 @@ const PITCH: f64 = 1.1;
 /// Narrowest period over the largest radius.
 const NARROWEST: f64 = 12.0;
 
-/// Teeth that a disk may cover at most: each is looked at for every first hit.
+/// Teeth that a disk may cover at most: each is searched for every first hit.
 const MOST_TEETH_UNDER_A_DISK: f64 = 1000.0;
+
+/// Disks above this many rows over the base belong to the topmost cells.
+const REGION_ROWS: f64 = 12.0;
 
 /// Slack of the shells over the radius, times the layer count: as the room between disks. Takes the fewest instructions
 /// from n = 0.35 to 4.2 at Gamma = 5 (`cargo bench --bench ratchet`, `profile`, under callgrind).
@@ -46,7 +50,38 @@ pub fn shell(disks: usize, values: &Values) -> f64 {
     1.0 + slack.min(widest)
 }
 
-/// The teeth that the parameters tell.
+/// The cell of `disks` disks over teeth of this height `top` \[m\] on a base whose farthest displacement is `farthest` \[m\].
+pub fn space(values: &Values, disks: usize, top: f64, farthest: f64) -> PeriodicAcross {
+    let rows = REGION_ROWS + 2.0 * layers(disks, values);
+    let height = top + farthest + rows * values.real("disk.radius_max");
+    PeriodicAcross(Region {
+        corner: Vector2::new(0.0, -farthest),
+        size: Vector2::new(cell_width(values), height),
+    })
+}
+
+/// Ceiling less the height `top` of the teeth and the widest disk \[m\]: farther up the base would crush it.
+///
+/// # Errors
+/// A base that moves as far as that.
+pub fn headroom(values: &Values, top: f64, farthest: f64) -> Result<f64> {
+    let ceiling = values.real("cell.height");
+    let headroom = ceiling - top - 2.0 * values.real("disk.radius_max");
+    if farthest >= headroom {
+        return Err(Error::parameter(
+            "cell.height",
+            format!("{ceiling} m"),
+            format!(
+                "more than {} m, above the base at its highest and a disk",
+                ceiling - headroom + farthest
+            ),
+            "Raise the ceiling or move the base less.",
+        ));
+    }
+    Ok(headroom)
+}
+
+/// The teeth that the parameters describe.
 ///
 /// # Errors
 /// A shape that does not exist, by name.
@@ -63,7 +98,7 @@ pub fn profile(values: &Values) -> Result<SawtoothProfile> {
 ///
 /// # Errors
 /// Radii, a period or a ceiling that leave no place, by name.
-pub fn disks(choice: Choice, values: &Values, top: f64) -> Result<Vec<Disk>> {
+pub fn disks(count: usize, values: &Values, top: f64) -> Result<Vec<Disk>> {
     let (min, max) = (values.real("disk.radius_min"), values.real("disk.radius_max"));
     if min > max {
         return Err(Error::parameter(
@@ -96,7 +131,6 @@ pub fn disks(choice: Choice, values: &Values, top: f64) -> Result<Vec<Disk>> {
             "Add teeth or take smaller disks.",
         ));
     }
-    let count = choice.disks as usize;
     let seed = values.integer("seed") as u64;
     let radii = RadiusDistribution::Uniform { min, max }.sample(count, seed)?;
     let pitch = 2.0 * PITCH * max;
@@ -123,7 +157,7 @@ pub fn disks(choice: Choice, values: &Values, top: f64) -> Result<Vec<Disk>> {
     Ok(radii.into_iter().enumerate().map(place).collect())
 }
 
-/// Masses \[kg\] by the rule that the parameters tell.
+/// Masses \[kg\] by the rule of the parameters.
 pub fn masses(disks: &[Disk], values: &Values) -> Vec<f64> {
     let mass = values.real("disk.mass");
     if values.integer("disk.mass_rule") == EQUAL_MASS {

@@ -1,60 +1,16 @@
-//! What the wedge scene asks of an engine.
+//! What the wedge scene needs of an engine.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::drive::Motion;
-use crate::engine::Work;
-use crate::error::{Result, are_sane};
-use crate::scene::{OutputWriter, Values, Variable};
-
-use super::initial::AtStart;
-
-/// Disk and base at one instant; impulse and energies per mass of the disk.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Look {
-    /// Centre of the disk \[m\] from the vertex of the wedge with its base at rest.
-    pub place: [f64; 2],
-    /// Velocity of the centre \[m/s\].
-    pub velocity: [f64; 2],
-    /// Angle turned \[rad\].
-    pub angle: f64,
-    /// Angular velocity \[rad/s\].
-    pub angular_velocity: f64,
-    /// Motion of the base.
-    pub base: Motion,
-    /// Vertical impulse of the base on the disk since the start \[N.s/kg\].
-    pub impulse: f64,
-    /// Energies.
-    pub energy: Energy,
-}
-
-impl Look {
-    /// Whether all of it is finite and far from overflow.
-    pub fn is_sane(&self) -> bool {
-        let Motion {
-            displacement,
-            velocity,
-            acceleration,
-        } = self.base;
-        let Energy {
-            kinetic,
-            potential,
-            input,
-            lost,
-        } = self.energy;
-        let scalars = [self.angle, self.angular_velocity, self.impulse];
-        are_sane(self.place)
-            && are_sane(self.velocity)
-            && are_sane(scalars)
-            && are_sane([displacement, velocity, acceleration])
-            && are_sane([kinetic, potential, input, lost])
-    }
-}
+use crate::engine::{DiskMotion, WorkBudget};
+use crate::error::are_sane;
+use crate::scene::{Result, Row, Values};
 
 /// Energies per mass of the disk \[J/kg\].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Energy {
+pub struct SpecificEnergies {
     /// Translation and rotation.
     pub kinetic: f64,
     /// In gravity, zero at the height of the wedge's vertex with its base at rest.
@@ -65,12 +21,38 @@ pub struct Energy {
     pub lost: f64,
 }
 
+impl SpecificEnergies {
+    /// Whether all of them are finite and far from overflow.
+    pub fn are_sane(&self) -> bool {
+        are_sane([self.kinetic, self.potential, self.input, self.lost])
+    }
+}
+
+/// What outputs depend on before the first step, where that differs between engines.
+#[derive(Debug, Clone, Copy)]
+pub struct AtStart {
+    /// What the place depends on besides the wedge: the seed where the frame is that of the wall that the disk flies to, since
+    /// the two differ in rounding.
+    pub place: &'static [&'static str],
+    /// What the displacement of the base depends on.
+    pub displacement: &'static [&'static str],
+    /// What its acceleration depends on.
+    pub acceleration: &'static [&'static str],
+}
+
+/// A scene around an engine E.
+pub trait Around<E> {
+    /// The engine.
+    fn engine(&self) -> &E;
+}
+
 /// A way to advance one disk in a wedge.
 ///
-/// Contract: the trajectory does not depend on where it is advanced to or looked at on the way.
-pub trait Engine: Sized + Send + 'static {
+/// Contract: the trajectory does not depend on the times to which it is advanced or at which it is observed. The time of an
+/// observation is that to which it was advanced last. Positions count from the vertex of the wedge with its base at rest.
+pub trait WedgeEngine: Sized + Send + 'static {
     /// Everything that changes with time.
-    type State: Clone + PartialEq + Serialize + DeserializeOwned + Send;
+    type State: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static;
     /// Name on the command line.
     const NAME: &'static str;
     /// Name of the drive.
@@ -79,16 +61,15 @@ pub trait Engine: Sized + Send + 'static {
     const IDENTIFIER: &'static str;
     /// One sentence.
     const DESCRIPTION: &'static str;
-
     /// What its outputs depend on at the start.
     const AT_START: AtStart;
 
     /// Parameters of its contacts.
-    fn parameters() -> Vec<Variable>;
+    fn contact_rows<M>() -> Vec<Row<M>>;
     /// Parameters and inputs of the drive.
-    fn drive() -> Vec<Variable>;
-    /// Outputs that it counts.
-    fn counts() -> Vec<Variable>;
+    fn drive_rows<M>() -> Vec<Row<M>>;
+    /// Outputs that other engines do not have.
+    fn own_outputs<M: Around<Self>>() -> Vec<Row<M>>;
 
     /// The disk at the start.
     ///
@@ -97,24 +78,30 @@ pub trait Engine: Sized + Send + 'static {
     fn new(start_time: f64, values: &Values) -> Result<Self>;
 
     /// Takes the inputs at `time` \[s\] for a step of `duration` \[s\].
-    fn aim(&mut self, time: f64, duration: f64, values: &Values);
+    fn set_target(&mut self, time: f64, duration: f64, values: &Values);
 
-    /// Advances to `end_time` \[s\] with the work that it takes taken off `work`.
+    /// Advances to `end_time` \[s\] and takes the work that it costs off `budget`.
     ///
     /// # Errors
     /// It cannot be done; the state is then of no use.
-    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()>;
+    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<()>;
 
-    /// Disk and base at `time` \[s\], to which it was advanced last.
-    fn look(&self, time: f64) -> Look;
+    /// Motion of the disk at `time` \[s\].
+    fn disk_at(&self, time: f64) -> DiskMotion;
 
-    /// Writes what [`Engine::counts`] lists.
-    fn write_counts(&self, outputs: &mut OutputWriter<'_>);
+    /// Motion of the base at `time` \[s\].
+    fn base_at(&self, time: f64) -> Motion;
+
+    /// Energies at `time` \[s\].
+    fn energies_at(&self, time: f64) -> SpecificEnergies;
+
+    /// Vertical impulse of the base on the disk since the start, per mass of the disk \[N.s/kg\].
+    fn impulse(&self) -> f64;
 
     /// A copy of the present state.
     fn state(&self) -> Self::State;
 
-    /// Goes back (or on) to a state at `time` \[s\].
+    /// Goes to a state at `time` \[s\].
     ///
     /// # Errors
     /// The state cannot be one of this engine, which is then as before.

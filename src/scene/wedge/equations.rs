@@ -17,7 +17,7 @@ wall at angle &theta; has <i>n</i> = (&minus;sin &theta;, cos &theta;) and <i>t<
 <i>e<sub>t</sub></i>) <i>u<sub>t</sub></i> / 3, &omega;' = &omega; &minus; 2 (1 &minus; <i>e<sub>t</sub></i>)
 <i>u<sub>t</sub></i> / (3 <i>R</i>)</li>
 <li><i>e<sub>t</sub></i> follows from |<i>u<sub>t</sub></i>/<i>u<sub>n</sub></i>|, &kappa;, &mu; and
-<i>e<sub>n</sub></i>: the elastic skin that sticks and slips during the impact, solved phase by phase</li>
+<i>e<sub>n</sub></i>: the tangential spring that sticks and slips during the impact, solved phase by phase</li>
 <li>map: the walls are at rest; <i>v<sub>b</sub></i> is that of a sinusoidal base where a disk thrown at a random phase
 first meets it, drawn again while the disk would not leave the wall</li>
 <li>event-driven: the walls move with the base; the first meeting with either of them is found to rounding; no impact

@@ -7,23 +7,21 @@ use rand_pcg::Pcg64;
 
 use crate::collision::{CollisionLaw, Dashpot, TabulatedDashpot, VelocityFloor};
 use crate::contact::LinearDashpot;
-use crate::drive::{FirstHit, RandomPhase, Sine};
-use crate::engine::Work;
-use crate::engine::wedge::{DiskInWedge, Moving, NO_PROGRESS, Resting, Setup, Side, State, Stop, Stuck, WallMotion};
-use crate::error::{Error, Result};
+use crate::drive::{AtRandomPhase, BaseMotion, FirstHit, Motion, RandomPhase, Sine};
+use crate::engine::wedge::{DiskInWedge, NO_PROGRESS, Side, Start, Stop, Stuck, WedgeSetup, WedgeState};
+use crate::engine::{DiskMotion, WorkBudget};
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::{Kind, OutputWriter, Unit, Values, Variable};
+use crate::scene::{Error, Kind, Result, Row, Unit, Values};
 
-use super::engine::{Energy, Engine, Look};
-use super::initial::AtStart;
-use super::{NAME, rows};
+use super::engine::{Around, AtStart, SpecificEnergies, WedgeEngine};
+use super::rows::{self, NAME};
 
 /// The map of P 6.3.
 ///
 /// There is no velocity floor: a slow disk meets the base near its top, with `v_b` of order `sqrt(|v_n| A omega_b)`, and
 /// is thrown up again, so that impacts do not pile up whatever the restitution.
 #[derive(Debug)]
-pub struct Map(DiskInWedge<TabulatedDashpot, Resting>);
+pub struct Map(DiskInWedge<TabulatedDashpot, AtRandomPhase>);
 
 /// The wedge that moves with a drive D.
 ///
@@ -31,7 +29,7 @@ pub struct Map(DiskInWedge<TabulatedDashpot, Resting>);
 /// that: no impact leaves slower than `collision.minimum_normal_velocity`, and how many it concerned is an output. A
 /// disk at rest is thus one that bounces by v^2 / (2 g); its friction and the force on the base are right in the mean.
 #[derive(Debug)]
-pub struct EventDriven<D>(DiskInWedge<VelocityFloor<TabulatedDashpot>, Moving<D>>);
+pub struct EventDriven<D>(DiskInWedge<VelocityFloor<TabulatedDashpot>, D>);
 
 /// The impact law of a disk of unit mass at a wall, which depends on e_n, kappa and mu alone.
 fn law(values: &Values) -> Result<TabulatedDashpot> {
@@ -41,8 +39,8 @@ fn law(values: &Values) -> Result<TabulatedDashpot> {
     Ok(TabulatedDashpot::new(law, &[1.0], 0.5))
 }
 
-fn setup(values: &Values, slow: f64) -> Setup {
-    Setup {
+fn setup(values: &Values, slow: f64) -> WedgeSetup {
+    WedgeSetup {
         frame: rows::frame(values),
         radius: values.real("disk.radius"),
         gravity: values.real("gravity"),
@@ -50,25 +48,26 @@ fn setup(values: &Values, slow: f64) -> Setup {
     }
 }
 
-fn restitution() -> Variable {
-    Variable::parameter(
+fn restitution<M>() -> Row<M> {
+    Row::parameter(
         "collision.restitution",
-        Unit::One,
+        Unit::ONE,
         0.01..=1.0,
         0.9,
         "Coefficient of normal restitution e_n",
     )
 }
 
-fn collisions() -> Variable {
-    Variable::count_output("collisions", "Collisions since the start; stops counting at 2147483647")
+fn collisions<M>(read: fn(&M) -> i64) -> Row<M> {
+    let description = "Collisions since the start; stops counting at 2147483647";
+    Row::count_output("collisions", description, read)
 }
 
 fn counted(count: u64) -> i64 {
     count.min(i32::MAX as u64) as i64
 }
 
-fn refusal(stop: Stop, remedy: &str) -> Error {
+fn refused_step(stop: Stop, remedy: &str) -> Error {
     let Stuck {
         time,
         side,
@@ -93,43 +92,67 @@ fn refusal(stop: Stop, remedy: &str) -> Error {
         )
     };
     Error::Step {
-        scene: NAME,
+        model: NAME,
         time,
         what,
         remedy: remedy.into(),
     }
 }
 
-fn look<L: CollisionLaw, B: WallMotion>(disk: &DiskInWedge<L, B>, time: f64) -> Look {
-    let (view, sums, setup) = (disk.view(time), disk.state().sums, disk.setup());
-    let [vx, vy] = view.velocity;
-    let rim = setup.radius * view.angular_velocity;
-    Look {
-        place: view.place,
-        velocity: view.velocity,
-        angle: view.angle,
-        angular_velocity: view.angular_velocity,
-        base: disk.base(time),
-        impulse: sums.velocity,
-        energy: Energy {
-            kinetic: 0.5 * (vx * vx + vy * vy + 0.5 * rim * rim),
-            potential: setup.gravity * view.place[1],
-            input: sums.input,
-            lost: sums.lost,
-        },
+fn energies_at<L: CollisionLaw, B: BaseMotion>(disk: &DiskInWedge<L, B>, time: f64) -> SpecificEnergies {
+    let (motion, sums, setup) = (disk.sample_at(time), disk.state().sums, disk.setup());
+    let rim = setup.radius * motion.angular_velocity;
+    SpecificEnergies {
+        kinetic: 0.5 * (motion.velocity.norm_squared() + 0.5 * rim * rim),
+        potential: setup.gravity * motion.position.y,
+        input: sums.input,
+        lost: sums.lost,
     }
 }
 
+/// What both engines do alike with their disk.
+macro_rules! as_its_disk {
+    ($walls:ty) => {
+        fn disk_at(&self, time: f64) -> DiskMotion {
+            self.0.sample_at(time)
+        }
+
+        fn base_at(&self, time: f64) -> Motion {
+            self.0.base(time)
+        }
+
+        fn energies_at(&self, time: f64) -> SpecificEnergies {
+            energies_at(&self.0, time)
+        }
+
+        fn impulse(&self) -> f64 {
+            self.0.state().sums.velocity
+        }
+
+        fn state(&self) -> WedgeState<$walls> {
+            self.0.state().clone()
+        }
+
+        fn restore(&mut self, state: &WedgeState<$walls>, time: f64) -> Result<()> {
+            restore(&mut self.0, state, time)
+        }
+    };
+}
+
 /// Goes to a state if it can be one.
-fn restore<L: CollisionLaw, B: WallMotion>(disk: &mut DiskInWedge<L, B>, state: &State<B>, time: f64) -> Result<()> {
+fn restore<L: CollisionLaw, B: BaseMotion>(
+    disk: &mut DiskInWedge<L, B>,
+    state: &WedgeState<B>,
+    time: f64,
+) -> Result<()> {
     let numbers = [
         state.time,
-        state.place.along,
-        state.place.above,
-        state.velocity.along,
-        state.velocity.above,
+        state.position.x,
+        state.position.y,
+        state.velocity.x,
+        state.velocity.y,
         state.rim_velocity,
-        state.rim_way,
+        state.arc_length,
         state.base.displacement,
         state.base.velocity,
     ];
@@ -144,8 +167,8 @@ fn restore<L: CollisionLaw, B: WallMotion>(disk: &mut DiskInWedge<L, B>, state: 
     Ok(())
 }
 
-impl Engine for Map {
-    type State = State<Resting>;
+impl WedgeEngine for Map {
+    type State = WedgeState<AtRandomPhase>;
     const NAME: &'static str = "map";
     const DRIVE: &'static str = <Sine as BaseDrive>::NAME;
     const IDENTIFIER: &'static str = "jostle_wedge_map";
@@ -156,27 +179,28 @@ impl Engine for Map {
         place: &["seed"],
         displacement: &[],
         acceleration: &[],
-        frequency: &[],
     };
 
-    fn parameters() -> Vec<Variable> {
+    fn contact_rows<M>() -> Vec<Row<M>> {
         vec![restitution()]
     }
 
     /// The phase is random. Any amplitude goes: the walls rest, and only A omega_b counts.
-    fn drive() -> Vec<Variable> {
-        let mut rows = Sine::variables();
-        rows.retain(|row| row.name != "drive.phase");
-        for row in &mut rows {
-            if let ("drive.amplitude", Kind::Real(quantity)) = (row.name.as_str(), &mut row.kind) {
+    fn drive_rows<M>() -> Vec<Row<M>> {
+        let mut rows = <Sine as BaseDrive>::rows();
+        rows.retain(|Row { variable, .. }| variable.name != "drive.phase");
+        for Row { variable, .. } in &mut rows {
+            if let ("drive.amplitude", Kind::Real(quantity)) = (variable.name.as_str(), &mut variable.kind) {
                 quantity.max = 1e4;
             }
         }
         rows
     }
 
-    fn counts() -> Vec<Variable> {
-        vec![collisions()]
+    fn own_outputs<M: Around<Self>>() -> Vec<Row<M>> {
+        vec![collisions(|scene: &M| {
+            counted(scene.engine().0.state().sums.collisions)
+        })]
     }
 
     fn new(start_time: f64, values: &Values) -> Result<Self> {
@@ -186,40 +210,31 @@ impl Engine for Map {
         let phase = RandomPhase {
             peak_velocity: TAU * values.real("drive.frequency") * amplitude,
         };
-        let (setup, walls) = (setup(values, 0.0), Resting { phase, generator });
-        let disk = DiskInWedge::new(setup, law(values)?, walls, start_time, height, sideways);
+        let (setup, walls) = (setup(values, 0.0), AtRandomPhase { phase, generator });
+        let start = Start {
+            time: start_time,
+            height,
+            sideways,
+        };
+        let disk = DiskInWedge::new(setup, law(values)?, walls, start);
         Ok(Self(disk))
     }
 
-    fn aim(&mut self, _time: f64, _duration: f64, _values: &Values) {}
+    fn set_target(&mut self, _time: f64, _duration: f64, _values: &Values) {}
 
-    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()> {
+    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<()> {
         self.0
-            .advance_within(end_time, work)
-            .map_err(|stop| refusal(stop, "Raise collision.restitution or drive.amplitude."))
+            .advance_within(end_time, budget)
+            .map_err(|stop| refused_step(stop, "Raise collision.restitution or drive.amplitude."))
     }
 
-    fn look(&self, time: f64) -> Look {
-        look(&self.0, time)
-    }
-
-    fn write_counts(&self, outputs: &mut OutputWriter<'_>) {
-        outputs.integer("collisions", counted(self.0.state().sums.collisions));
-    }
-
-    fn state(&self) -> Self::State {
-        self.0.state().clone()
-    }
-
-    fn restore(&mut self, state: &Self::State, time: f64) -> Result<()> {
-        restore(&mut self.0, state, time)
-    }
+    as_its_disk!(AtRandomPhase);
 }
 
 const FLOOR: &str = "collision.minimum_normal_velocity";
 
-impl<D: BaseDrive + FirstHit> Engine for EventDriven<D> {
-    type State = State<Moving<D>>;
+impl<D: BaseDrive + FirstHit> WedgeEngine for EventDriven<D> {
+    type State = WedgeState<D>;
     const NAME: &'static str = "event-driven";
     const DRIVE: &'static str = D::NAME;
     const IDENTIFIER: &'static str = if D::STEERED {
@@ -232,25 +247,29 @@ impl<D: BaseDrive + FirstHit> Engine for EventDriven<D> {
         place: &["seed"],
         displacement: D::DISPLACEMENT_AT_START,
         acceleration: D::ACCELERATION_AT_START,
-        frequency: &[],
     };
 
-    fn parameters() -> Vec<Variable> {
+    fn contact_rows<M>() -> Vec<Row<M>> {
         let floor = "Smallest normal velocity with which a collision leaves the wall: ends the infinitely many collisions \
                      of a disk that comes to rest";
         vec![
             restitution(),
-            Variable::parameter(FLOOR, Unit::MetrePerSecond, 0.0..=1e3, 1e-4, floor),
+            Row::parameter(FLOOR, Unit::METRE_PER_SECOND, 0.0..=1e3, 1e-4, floor),
         ]
     }
 
-    fn drive() -> Vec<Variable> {
-        rows::drive::<D>()
+    fn drive_rows<M>() -> Vec<Row<M>> {
+        rows::drive::<M, D>()
     }
 
-    fn counts() -> Vec<Variable> {
+    fn own_outputs<M: Around<Self>>() -> Vec<Row<M>> {
         let slow = "Collisions among them that left the wall at collision.minimum_normal_velocity";
-        vec![collisions(), Variable::count_output("slow_collisions", slow)]
+        vec![
+            collisions(|scene: &M| counted(scene.engine().0.state().sums.collisions)),
+            Row::count_output("slow_collisions", slow, |scene: &M| {
+                counted(scene.engine().0.state().sums.slow_collisions)
+            }),
+        ]
     }
 
     fn new(start_time: f64, values: &Values) -> Result<Self> {
@@ -258,38 +277,27 @@ impl<D: BaseDrive + FirstHit> Engine for EventDriven<D> {
         let (height, sideways) = rows::throw(values, &mut generator);
         let floor = values.real(FLOOR);
         let law = VelocityFloor::new(law(values)?, floor)?;
-        let (setup, walls) = (setup(values, floor), Moving(D::new(start_time, values)?));
-        Ok(Self(DiskInWedge::new(setup, law, walls, start_time, height, sideways)))
+        let (setup, walls) = (setup(values, floor), D::new(start_time, values)?);
+        let start = Start {
+            time: start_time,
+            height,
+            sideways,
+        };
+        Ok(Self(DiskInWedge::new(setup, law, walls, start)))
     }
 
-    fn aim(&mut self, time: f64, duration: f64, values: &Values) {
+    fn set_target(&mut self, time: f64, duration: f64, values: &Values) {
         if D::STEERED {
-            self.0.steer(time, |walls| walls.0.aim(time, duration, values));
+            self.0.steer(time, |walls| walls.set_target(time, duration, values));
         }
     }
 
-    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()> {
+    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<()> {
         let remedy = format!("Inelastic collapse? Raise {FLOOR} or collision.restitution.");
         self.0
-            .advance_within(end_time, work)
-            .map_err(|stop| refusal(stop, &remedy))
+            .advance_within(end_time, budget)
+            .map_err(|stop| refused_step(stop, &remedy))
     }
 
-    fn look(&self, time: f64) -> Look {
-        look(&self.0, time)
-    }
-
-    fn write_counts(&self, outputs: &mut OutputWriter<'_>) {
-        let sums = self.0.state().sums;
-        outputs.integer("collisions", counted(sums.collisions));
-        outputs.integer("slow_collisions", counted(sums.slow_collisions));
-    }
-
-    fn state(&self) -> Self::State {
-        self.0.state().clone()
-    }
-
-    fn restore(&mut self, state: &Self::State, time: f64) -> Result<()> {
-        restore(&mut self.0, state, time)
-    }
+    as_its_disk!(D);
 }

@@ -3,43 +3,28 @@
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-use crate::contact::{ElasticSkin, LinearDashpot};
 use crate::drive::Motion;
-use crate::engine::Work;
-use crate::engine::molecular_dynamics::{
-    Breakdown, ContactLaws, Integrator, MolecularDynamics, Setup, State, TimeStepLimits,
-};
-use crate::engine::wedge::{Frame, Side};
-use crate::error::{Error, Result};
-use crate::geometry::{Disk, Wall};
+use crate::engine::dem::{Setup, State, TimeStepLimits, Verlet, verlet};
+use crate::engine::wedge::{Side, WedgeFrame};
+use crate::engine::{DiskMotion, Engine, WorkBudget};
+use crate::geometry::{Disk, Vector2, Wall, clockwise};
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::packing::{chosen_time_step, refusal_of};
-use crate::scene::{OutputWriter, Unit, Values, Variable};
+use crate::scene::disks_on_base::names;
+use crate::scene::soft_disks::{STEP_OF_ONE_DISK, chosen_time_step, contact_laws, refused_step};
+use crate::scene::{Error, Result, Row, Unit, Values};
 
-use super::engine::{Energy, Engine, Look};
-use super::initial::AtStart;
-use super::{NAME, rows};
+use super::engine::{Around, AtStart, SpecificEnergies, WedgeEngine};
+use super::rows::{self, NAME};
 
-/// Molecular dynamics with the integrator I in a wedge that moves with the drive D.
+/// A soft disk in a wedge that moves with the drive D.
 #[derive(Debug)]
-pub struct Soft<I, D> {
-    engine: MolecularDynamics<I, D>,
+pub struct Soft<D> {
+    engine: Verlet<D>,
     mass: f64,
 }
 
-fn refusal(breakdown: Breakdown) -> Error {
-    refusal_of(NAME, breakdown)
-}
-
-impl<I: Integrator, D: BaseDrive> Soft<I, D> {
-    /// Time step in use \[s\].
-    pub fn time_step(&self) -> f64 {
-        self.engine.setup().time_step
-    }
-}
-
-impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
-    type State = State<D>;
+impl<D: BaseDrive> WedgeEngine for Soft<D> {
+    type State = State<D, verlet::Disks>;
     const NAME: &'static str = "molecular-dynamics";
     const DRIVE: &'static str = D::NAME;
     const IDENTIFIER: &'static str = if D::STEERED {
@@ -52,28 +37,27 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
         place: &[],
         displacement: D::DISPLACEMENT_AT_START,
         acceleration: D::ACCELERATION_AT_START,
-        frequency: D::FREQUENCY,
     };
 
-    fn parameters() -> Vec<Variable> {
+    fn contact_rows<M>() -> Vec<Row<M>> {
         vec![
-            Variable::parameter(
+            Row::parameter(
                 "contact.normal_stiffness",
-                Unit::NewtonPerMetre,
+                Unit::NEWTON_PER_METRE,
                 1e-3..=1e15,
                 4.5e6,
                 "Normal stiffness k_n of the contacts with the walls",
             ),
-            Variable::parameter(
+            Row::parameter(
                 "contact.normal_damping",
-                Unit::KilogramPerSecond,
+                Unit::KILOGRAM_PER_SECOND,
                 0.0..=1e9,
                 9.84,
                 "Normal damping gamma_n of the contacts with the walls",
             ),
-            Variable::parameter(
+            Row::parameter(
                 "time_step",
-                Unit::Second,
+                Unit::SECOND,
                 0.0..=1.0,
                 0.0,
                 "Time step of the integration; 0: a hundredth of the shortest contact period",
@@ -82,16 +66,27 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
         ]
     }
 
-    fn drive() -> Vec<Variable> {
-        rows::drive::<D>()
+    fn drive_rows<M>() -> Vec<Row<M>> {
+        rows::drive::<M, D>()
     }
 
-    fn counts() -> Vec<Variable> {
-        let elastic = "Energy in the springs and skins of closed contacts";
+    fn own_outputs<M: Around<Self>>() -> Vec<Row<M>> {
+        let elastic = "Energy in the normal and tangential springs of closed contacts";
         vec![
-            Variable::calculated("chosen_time_step", Unit::Second, 1e-7, "Time step in use"),
-            Variable::output("energy.elastic", Unit::Joule, 1e-3, elastic),
-            Variable::count_output("contacts", "Walls that the disk touches"),
+            Row::calculated(
+                "chosen_time_step",
+                Unit::SECOND,
+                1e-7,
+                "Time step in use",
+                |scene: &M| scene.engine().engine.setup().time_step,
+            )
+            .depending_on(&names(&[STEP_OF_ONE_DISK, D::FREQUENCY])),
+            Row::output("energy.elastic", Unit::JOULE, 1e-3, elastic, |scene: &M| {
+                scene.engine().engine.elastic_energy()
+            }),
+            Row::count_output("contacts", "Walls that the disk touches", |scene: &M| {
+                i64::from(scene.engine().engine.now().contacts)
+            }),
         ]
     }
 
@@ -101,78 +96,69 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
             values.real("disk.radius"),
             values.real("disk.mass"),
         );
-        let stiffness = values.real("contact.normal_stiffness");
-        let laws = ContactLaws {
-            normal: LinearDashpot {
-                stiffness,
-                damping: values.real("contact.normal_damping"),
-            },
-            skin: ElasticSkin {
-                stiffness: values.real("contact.stiffness_ratio") * stiffness,
-                friction: values.real("contact.friction"),
-            },
-        };
+        let laws = contact_laws(values);
         let drive = D::new(start_time, values)?;
-        let limits = TimeStepLimits::of(&laws, &[mass], drive.frequency());
+        let limits = TimeStepLimits::verlet(&laws, &[mass], drive.frequency());
         let slopes = rows::slopes(values);
         let setup = Setup {
             laws,
             walls: vec![Wall::vibrating_slope(-slopes[0]), Wall::vibrating_slope(slopes[1])],
             masses: vec![mass],
             gravity: values.real("gravity"),
-            time_step: chosen_time_step(values.real("time_step"), &limits)?,
+            time_step: chosen_time_step(values, &limits)?,
             start_time,
         };
         let mut generator = Pcg64::seed_from_u64(values.integer("seed") as u64);
         let (height, sideways) = rows::throw(values, &mut generator);
-        let [up_x, up_y] = up_bisector(&frame);
-        let reach = height + radius / frame.bisector().above;
-        let disk = Disk {
-            x: reach * up_x,
-            y: reach * up_y + drive.motion(start_time).displacement,
-            radius,
-        };
-        let mut engine = MolecularDynamics::new(setup, &[disk], drive);
-        engine.set_motion(|state| {
-            state.velocity[0] = sideways * up_y;
-            state.velocity[1] = -sideways * up_x;
+        let up = up_bisector(&frame);
+        let distance = height + radius / frame.bisector().y;
+        let lift = drive.motion(start_time).displacement;
+        let disk = Disk::new(distance * up, radius).raised(lift);
+        let mut engine = Verlet::new(setup, &[disk], drive);
+        engine.set_motion(|disks| {
+            [disks.velocity[0], disks.velocity[1]] = (sideways * clockwise(&up)).into();
         });
         Ok(Self { engine, mass })
     }
 
-    fn aim(&mut self, time: f64, duration: f64, values: &Values) {
-        self.engine.drive_mut().aim(time, duration, values);
+    fn set_target(&mut self, time: f64, duration: f64, values: &Values) {
+        self.engine.drive_mut().set_target(time, duration, values);
     }
 
-    fn advance_to(&mut self, end_time: f64, work: &mut Work) -> Result<()> {
-        self.engine.advance_within(end_time, work).map_err(refusal)
+    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<()> {
+        self.engine
+            .advance_within(end_time, budget)
+            .map_err(|breakdown| refused_step(NAME, breakdown))
     }
 
-    fn look(&self, _time: f64) -> Look {
-        let (now, energies) = (self.engine.now(), self.engine.energies());
-        let ([x, y, angle], [vx, vy, angular_velocity]) = (now.places()[0], now.rates()[0]);
-        let impulse: f64 = (0..2).map(|wall| self.engine.impulse_of_wall(wall)[1]).sum();
-        let base: Motion = now.base;
-        Look {
-            place: [x, y],
-            velocity: [vx, vy],
+    fn disk_at(&self, _time: f64) -> DiskMotion {
+        let now = self.engine.observables();
+        let ([x, y, angle], [vx, vy, angular_velocity]) = (now.positions[0], now.velocities[0]);
+        DiskMotion {
+            position: Vector2::new(x, y),
+            velocity: Vector2::new(vx, vy),
             angle,
             angular_velocity,
-            base,
-            impulse: impulse / self.mass,
-            energy: Energy {
-                kinetic: energies.kinetic / self.mass,
-                potential: energies.potential / self.mass,
-                input: now.energy_input / self.mass,
-                lost: now.energy_lost / self.mass,
-            },
         }
     }
 
-    fn write_counts(&self, outputs: &mut OutputWriter<'_>) {
-        outputs.real("chosen_time_step", self.time_step());
-        outputs.real("energy.elastic", self.engine.energies().elastic);
-        outputs.integer("contacts", i64::from(self.engine.now().contacts));
+    fn base_at(&self, _time: f64) -> Motion {
+        self.engine.now().base
+    }
+
+    fn energies_at(&self, _time: f64) -> SpecificEnergies {
+        let now = self.engine.now();
+        SpecificEnergies {
+            kinetic: self.engine.kinetic_energy() / self.mass,
+            potential: self.engine.potential_energy() / self.mass,
+            input: now.energy_input / self.mass,
+            lost: now.energy_lost / self.mass,
+        }
+    }
+
+    fn impulse(&self) -> f64 {
+        let impulse: f64 = (0..2).map(|wall| self.engine.impulse_of_wall(wall)[1]).sum();
+        impulse / self.mass
     }
 
     fn state(&self) -> Self::State {
@@ -186,11 +172,13 @@ impl<I: Integrator + Send + 'static, D: BaseDrive> Engine for Soft<I, D> {
                 "Restore states of the same scene and parameters only.",
             ));
         }
-        self.engine.restore(state, time).map_err(refusal)
+        self.engine
+            .restore(state, time)
+            .map_err(|breakdown| refused_step(NAME, breakdown))
     }
 }
 
 /// The unit vector up the bisector in the laboratory.
-fn up_bisector(frame: &Frame) -> [f64; 2] {
-    frame.laboratory(Side::Left, frame.bisector())
+fn up_bisector(frame: &WedgeFrame) -> Vector2<f64> {
+    frame.to_laboratory(Side::Left, frame.bisector())
 }

@@ -1,0 +1,45 @@
+//! The texts of a simulation's variables, for callers that keep pointers to them.
+
+use std::ffi::{CString, c_char};
+
+use jostle::Error;
+use jostle::scene::{Kind, Variable};
+
+/// The texts of all variables of a simulation.
+pub struct VariableTexts {
+    texts: Vec<[CString; 4]>,
+}
+
+impl VariableTexts {
+    pub fn new(rows: &[Variable]) -> Self {
+        // No text of a scene holds a zero byte.
+        let text = |text: &str| CString::new(text.replace('\0', "")).unwrap_or_default();
+        let texts = rows.iter().map(|row| {
+            let (unit, options) = match &row.kind {
+                Kind::Real(quantity) => (quantity.unit.name, String::new()),
+                Kind::Enumeration { options, .. } => {
+                    let names: Vec<_> = options.iter().map(|(name, _)| *name).collect();
+                    ("1", names.join(","))
+                }
+                Kind::Integer { .. } | Kind::Long { .. } => ("1", String::new()),
+            };
+            [text(&row.name), text(unit), text(&row.description), text(&options)]
+        });
+        Self { texts: texts.collect() }
+    }
+
+    /// Name, unit, description and options of the variable at `position`. They live as long as this value.
+    pub fn at(&self, position: usize) -> [*const c_char; 4] {
+        self.texts[position].each_ref().map(|text| text.as_ptr())
+    }
+}
+
+/// The refusal of a number that no variable has.
+pub fn unknown(variables: &[Variable], variable: u32) -> Error {
+    Error::parameter(
+        "variable",
+        variable,
+        format!("0 to {}", variables.len() - 1),
+        "Take the numbers from jostle_find or jostle_variable.",
+    )
+}

@@ -1,0 +1,209 @@
+//! Component and library in, an `.fmu` file out. The same input gives the same bytes: fixed order, no date but that of the
+//! component.
+//!
+//! What is inside, for a model of the package `mechanics`:
+//! ```text
+//! modelDescription.xml
+//! binaries/linux64/<identifier>.so          FMI 2.0
+//! binaries/x86_64-linux/<identifier>.so     FMI 3.0
+//! documentation/index.html, documentation/licenses/
+//! extra/mechanics/reference.csv             what it computes, for `replay`
+//! model.png                                 FMI 2.0: icon
+//! terminalsAndIcons/                        FMI 3.0: terminals and icon
+//! ```
+
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+use std::fs;
+use std::io::{self, Cursor, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use fmi_component::{Error, Result, Version};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+use crate::component::{Component, Notices};
+use crate::platform::platform;
+use crate::{documentation, model_description, reference, terminals};
+
+/// The library that exports the model `identifier`, in the first of `folders` that holds it.
+///
+/// # Errors
+/// None does.
+pub fn find_library(identifier: &str, folders: &[&Path]) -> Result<PathBuf> {
+    let name = format!("{DLL_PREFIX}{identifier}{DLL_SUFFIX}");
+    let found = folders
+        .iter()
+        .map(|folder| folder.join(&name))
+        .find(|path| path.is_file());
+    found.ok_or_else(|| {
+        let list: Vec<_> = folders.iter().map(|folder| folder.display().to_string()).collect();
+        Error::file(
+            Path::new(&name),
+            format!("not found in {}", list.join(", ")),
+            "Build it: cargo build --release --workspace, or name the folder where it is.",
+        )
+    })
+}
+
+/// Writes the FMU of `component` for `version` to `out`, with the binary `library`.
+///
+/// # Errors
+/// The library cannot be read or the FMU cannot be written. There is then no new file, and one that was there is as before.
+pub fn write(component: &Component, version: Version, library: &Path, out: &Path) -> Result<()> {
+    let binary = fs::read(library).map_err(|error| cannot_read(library, &error))?;
+    let bytes = pack(component, version, &binary)?;
+    // Beside the target and then renamed, so that nobody meets half an FMU.
+    let partial = out.with_added_extension("part");
+    fs::write(&partial, &bytes)
+        .and_then(|()| fs::rename(&partial, out))
+        .map_err(|error| {
+            let _ = fs::remove_file(&partial);
+            cannot_write(out, bytes.len(), &error)
+        })
+}
+
+fn cannot_read(library: &Path, error: &io::Error) -> Error {
+    let remedy = match error.kind() {
+        ErrorKind::NotFound => "Build it: cargo build --release --workspace, or name the file where it is.",
+        ErrorKind::PermissionDenied => "Allow to read it.",
+        _ => "Name the file of the library.",
+    };
+    Error::file(library, error, remedy)
+}
+
+fn cannot_write(out: &Path, length: usize, error: &io::Error) -> Error {
+    let folder = match out.parent() {
+        Some(parent) if parent != Path::new("") => parent.display().to_string(),
+        _ => "the current folder".into(),
+    };
+    let (what, remedy) = match error.kind() {
+        ErrorKind::NotFound => (
+            format!("the folder {folder} does not exist"),
+            "Create it, or choose another.",
+        ),
+        ErrorKind::NotADirectory => (format!("{folder} is not a folder"), "Choose a folder."),
+        ErrorKind::IsADirectory => ("it is a folder".into(), "Give the name of a file."),
+        ErrorKind::PermissionDenied => (
+            format!("no permission to write to {folder}"),
+            "Choose a folder that you may write to.",
+        ),
+        ErrorKind::ReadOnlyFilesystem => (
+            format!("{folder} is on a disk that is read-only"),
+            "Choose a folder on another.",
+        ),
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => (
+            format!("no space left for {length} bytes in {folder} ({error})"),
+            "Make room, or choose a folder on another disk.",
+        ),
+        _ => (error.to_string(), "Choose another file or folder."),
+    };
+    Error::file(out, what, remedy)
+}
+
+/// The bytes of the FMU.
+///
+/// # Errors
+/// Arrays in FMI 2.0, or the archive cannot be made.
+pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<u8>> {
+    if component.arrays && version == Version::Two {
+        return Err(Error::parameter(
+            "arrays",
+            "with FMI 2.0",
+            "FMI 3.0, since FMI 2.0 has no arrays",
+            "Write it for FMI 3.0, or with scalar variables.",
+        ));
+    }
+    let failed = |error: &dyn ToString| Error::call(format!("the archive: {}", error.to_string()), "Try again.");
+    let path = format!(
+        "binaries/{}/{}{DLL_SUFFIX}",
+        platform(version),
+        component.info().identifier
+    );
+    let texts = files(component, version, binary)?;
+    let texts = texts.iter().map(|(path, content)| (path, content.as_slice(), 0o644));
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    for (path, content, permissions) in texts.chain([(&path, binary, 0o755)]) {
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Deflated)
+            .last_modified_time(DateTime::default())
+            .unix_permissions(permissions);
+        archive
+            .start_file(path.as_str(), options)
+            .map_err(|error| failed(&error))?;
+        archive.write_all(content).map_err(|error| failed(&error))?;
+    }
+    Ok(archive.finish().map_err(|error| failed(&error))?.into_inner())
+}
+
+/// All files but the binary, each with its path.
+fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(String, Vec<u8>)>> {
+    let mut list = vec![
+        (
+            "modelDescription.xml".into(),
+            model_description::write(component, version).into_bytes(),
+        ),
+        (
+            "documentation/index.html".into(),
+            documentation::write(component, version, binary).into_bytes(),
+        ),
+    ];
+    list.extend(licenses(&component.notices));
+    list.push((
+        reference::path(component.info()),
+        reference::record(component)?.into_bytes(),
+    ));
+    let icon = match version {
+        Version::Two => "model.png",
+        Version::Three => "terminalsAndIcons/icon.png",
+    };
+    list.extend(component.icon.iter().map(|picture| (icon.into(), picture.clone())));
+    let terminals = terminals::write(component).filter(|_| version == Version::Three);
+    list.extend(terminals.map(|text| ("terminalsAndIcons/terminalsAndIcons.xml".into(), text.into_bytes())));
+    Ok(list)
+}
+
+/// The texts of `notices`, and the file `license.txt` that FMI asks for and that names them.
+fn licenses(notices: &Notices) -> Vec<(String, Vec<u8>)> {
+    let mut texts = notices.files.clone();
+    if !notices.license.is_empty() {
+        let names: Vec<&str> = notices.files.iter().map(|(name, _)| name.as_str()).collect();
+        let beside = match names.as_slice() {
+            [] => String::new(),
+            names => format!("\nThe texts are beside this file: {}.\n", names.join(", ")),
+        };
+        let text = format!("SPDX-License-Identifier: {}\n{beside}", notices.license);
+        texts.insert(0, ("license.txt".into(), text));
+    }
+    let file = |(name, text): (String, String)| (format!("documentation/licenses/{name}"), text.into_bytes());
+    texts.into_iter().map(file).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_to_write_is_told_with_its_remedy() {
+        for (kind, what) in [
+            (
+                ErrorKind::NotFound,
+                "the folder some/where does not exist. Create it, or choose another.",
+            ),
+            (
+                ErrorKind::PermissionDenied,
+                "no permission to write to some/where. Choose a folder",
+            ),
+            (
+                ErrorKind::StorageFull,
+                "no space left for 7 bytes in some/where (no storage space). Make room",
+            ),
+            (ErrorKind::IsADirectory, "it is a folder. Give the name of a file."),
+            (ErrorKind::ReadOnlyFilesystem, "read-only"),
+        ] {
+            let told = cannot_write(Path::new("some/where/a.fmu"), 7, &kind.into()).to_string();
+            assert!(told.starts_with("some/where/a.fmu: ") && told.contains(what), "{told}");
+        }
+        let told = cannot_write(Path::new("a.fmu"), 7, &ErrorKind::PermissionDenied.into()).to_string();
+        assert!(told.contains("to write to the current folder"), "{told}");
+    }
+}

@@ -1,0 +1,125 @@
+//! A model with all that is decided when its FMU is written: what every file of the FMU is made from.
+
+use std::sync::Arc;
+
+use fmi_component::{Kind, ModelInfo, ModelType, Result, StructuralParameters, Table, Variable, arrays, token};
+
+/// Whose work the FMU is, and under which terms it may be used.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Notices {
+    /// SPDX expression of the licence, such as `MIT`; empty for none.
+    pub license: String,
+    /// Line that says whose work it is, such as `Copyright (c) 2026 A. Author`; empty for none.
+    pub copyright: String,
+    /// Files for `documentation/licenses/`, each a name and a text: licences, notices of third parties.
+    pub files: Vec<(String, String)>,
+}
+
+/// A model with its structural parameters and what its FMU is to hold besides.
+#[derive(Debug, Clone)]
+pub struct Component {
+    model: ModelType,
+    info: ModelInfo,
+    structure: StructuralParameters,
+    table: Arc<Table>,
+    /// Computed variables with an index become arrays (FMI 3.0), see [`fmi_component::arrays`].
+    pub arrays: bool,
+    /// When the FMU was made, as `2026-11-24T06:00:00Z`; none where the same bytes are wanted each time.
+    pub date: Option<String>,
+    /// Licence and notices.
+    pub notices: Notices,
+    /// Picture of the component as a PNG file.
+    pub icon: Option<Vec<u8>>,
+    /// Command that compares the FMU with its reference trajectory, such as `mytool replay FILE.fmu`, for the documentation page.
+    pub replay_command: Option<String>,
+    /// Amplitude a of the oscillation a (1 - cos(omega t)) of an input with a derivative in the reference trajectory, from that
+    /// input and omega \[rad/s\]. [`nominal_amplitude`] unless it is replaced.
+    pub amplitude: fn(&Variable, f64) -> f64,
+}
+
+impl Component {
+    /// The component of `model` with these structural parameters, the defaults for those that are not named; scalar variables,
+    /// no date, notices or icon.
+    ///
+    /// # Errors
+    /// A structural parameter that the model does not have, or out of its range.
+    pub fn new(model: &ModelType, structure: &[(&str, u32)]) -> Result<Self> {
+        let info = (model.info)();
+        let structure = StructuralParameters::choose(&info, structure)?;
+        let table = Arc::new(Table::new((model.variables)(&structure)));
+        Ok(Self {
+            model: *model,
+            info,
+            structure,
+            table,
+            arrays: false,
+            date: None,
+            notices: Notices::default(),
+            icon: None,
+            replay_command: None,
+            amplitude: nominal_amplitude,
+        })
+    }
+
+    /// The model.
+    pub fn model(&self) -> &ModelType {
+        &self.model
+    }
+
+    /// Static facts of the model.
+    pub fn info(&self) -> &ModelInfo {
+        &self.info
+    }
+
+    /// Structural parameters.
+    pub fn structure(&self) -> &StructuralParameters {
+        &self.structure
+    }
+
+    /// Variables for these structural parameters.
+    pub fn table(&self) -> &Arc<Table> {
+        &self.table
+    }
+
+    /// Instantiation token (FMI 3.0) or GUID (FMI 2.0).
+    pub fn token(&self) -> String {
+        token::write(&self.info, &self.structure, self.table.variables(), self.arrays)
+    }
+
+    /// What wrote the FMU: package and version of the model.
+    pub(crate) fn tool(&self) -> String {
+        format!("{} {}", self.info.package, self.info.version)
+    }
+
+    /// For each position of the table how many elements the FMU's variable has that begins there: 1 for a scalar, 0 inside an
+    /// array.
+    pub(crate) fn spans(&self) -> Vec<usize> {
+        let variables = self.table.variables();
+        match self.arrays {
+            true => arrays::spans(variables),
+            false => vec![1; variables.len()],
+        }
+    }
+
+    /// Name in the FMU of the variable at `position`, where one begins.
+    pub(crate) fn name_at(&self, position: usize) -> &str {
+        let variable = &self.table.variables()[position];
+        match self.is_array(position) {
+            true => arrays::name(&variable.name),
+            false => &variable.name,
+        }
+    }
+
+    /// Whether the FMU's variable that begins at `position` is an array.
+    pub(crate) fn is_array(&self, position: usize) -> bool {
+        self.arrays && arrays::begins(&self.table.variables()[position])
+    }
+}
+
+/// The nominal value of a real input.
+pub fn nominal_amplitude(input: &Variable, _omega: f64) -> f64 {
+    match &input.kind {
+        Kind::Real(quantity) => quantity.nominal,
+        _ => 1.0,
+    }
+}

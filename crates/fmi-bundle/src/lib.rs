@@ -1,0 +1,27 @@
+//! FMUs of any model of [`fmi_component`]: model description, documentation page, terminals, icon, reference trajectory and
+//! library in one archive, for FMI 2.0 and FMI 3.0.
+//!
+//! A [`Component`] is a model with its structural parameters, notices and icon. [`write()`] puts it into a file with the library
+//! that exports the model; [`replay()`] runs the library in such a file and compares it with the trajectory beside it.
+//!
+//! ```text
+//! Component -> model_description, documentation, terminals, reference -> bundle -> FILE.fmu -> replay
+//! ```
+//!
+#![doc = include_str!("../README.md")]
+
+mod bundle;
+mod component;
+mod documentation;
+mod importer;
+pub mod model_description;
+mod platform;
+pub mod reference;
+mod replay;
+pub mod terminals;
+mod xml;
+
+pub use bundle::{find_library, pack, write};
+pub use component::{Component, Notices, nominal_amplitude};
+pub use fmi_component::Version;
+pub use replay::{Report, TOLERANCE, replay};

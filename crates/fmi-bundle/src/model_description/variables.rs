@@ -1,0 +1,179 @@
+//! `ModelVariables`: one element per variable, or per array of variables.
+
+use std::io;
+
+use fmi_component::{Causality, Kind, TIME, TIME_REFERENCE, Unit, Variable, Version, value_reference};
+
+use super::types::{declared_type, of_unit};
+use super::{Layout, index};
+use crate::xml::{self, Attributes, Xml, number};
+
+/// All variables, the time first.
+pub fn write(xml: &mut Xml, layout: &Layout<'_>) -> io::Result<()> {
+    let about_time = vec![
+        ("name", TIME.into()),
+        ("valueReference", TIME_REFERENCE.to_string()),
+        ("description", "Simulated time.".into()),
+        ("causality", "independent".into()),
+        ("variability", "continuous".into()),
+    ];
+    let unit = typed(Unit::SECOND);
+    element(xml, layout.version, about_time, ("Real", "Float64"), unit, None)?;
+    layout
+        .positions()
+        .try_for_each(|position| write_variable(xml, layout, position))
+}
+
+fn write_variable(xml: &mut Xml, layout: &Layout<'_>, position: usize) -> io::Result<()> {
+    let variable = layout.variable(position);
+    let array = layout.component.is_array(position);
+    let description = match array {
+        true => of_each(&variable.description),
+        false => variable.description.clone(),
+    };
+    let mut about = vec![
+        ("name", layout.component.name_at(position).into()),
+        ("valueReference", value_reference(position).to_string()),
+        ("description", description),
+        ("causality", causality(variable.causality).into()),
+        ("variability", variability(variable).into()),
+    ];
+    about.extend(initial(variable.causality).map(|initial| ("initial", initial.into())));
+    let kinds = match variable.kind {
+        Kind::Real(_) => ("Real", "Float64"),
+        Kind::Integer { .. } => ("Integer", "Int32"),
+        Kind::Long { .. } => ("Integer", "Int64"),
+        Kind::Enumeration { .. } => ("Enumeration", "Enumeration"),
+    };
+    let mut list = details(variable, layout.version);
+    if let Some(integral) = layout.integrals[position] {
+        let target = match layout.version {
+            Version::Two => index(integral),
+            Version::Three => value_reference(integral).to_string(),
+        };
+        list.push(("derivative", target));
+    }
+    let dimension = array.then(|| layout.spans[position]);
+    element(xml, layout.version, about, kinds, list, dimension)
+}
+
+/// FMI 2.0 splits what FMI 3.0 writes in one element. `dimension` is the number of elements of an array.
+fn element(
+    xml: &mut Xml,
+    version: Version,
+    mut about: Attributes,
+    kinds: (&str, &str),
+    details: Attributes,
+    dimension: Option<usize>,
+) -> io::Result<()> {
+    match version {
+        Version::Two => xml::element(xml, "ScalarVariable", &about, |xml| xml::empty(xml, kinds.0, &details)),
+        Version::Three => {
+            about.extend(details);
+            match dimension {
+                None => xml::empty(xml, kinds.1, &about),
+                Some(elements) => xml::element(xml, kinds.1, &about, |xml| {
+                    xml::empty(xml, "Dimension", &vec![("start", elements.to_string())])
+                }),
+            }
+        }
+    }
+}
+
+/// Description of an array from that of its first element: `Mass of body 1.` becomes `Mass of each body.`
+fn of_each(first: &str) -> String {
+    let stands_alone = |end: &usize| !first[*end..].starts_with(|next: char| next.is_alphanumeric());
+    let mut ends = first.match_indices(" 1").map(|(start, one)| start + one.len());
+    let Some(end) = ends.find(stands_alone) else {
+        return first.into();
+    };
+    let before = &first[..end - " 1".len()];
+    let noun = before.rfind(' ').map_or(0, |space| space + 1);
+    format!("{}each {}{}", &before[..noun], &before[noun..], &first[end..])
+}
+
+fn typed(unit: Unit) -> Attributes {
+    let declared = declared_type(unit).map(|name| ("declaredType", name));
+    declared.into_iter().chain(of_unit(unit)).collect()
+}
+
+fn causality(causality: Causality) -> &'static str {
+    match causality {
+        Causality::Parameter => "parameter",
+        Causality::CalculatedParameter => "calculatedParameter",
+        Causality::Input => "input",
+        Causality::Output => "output",
+    }
+}
+
+fn variability(variable: &Variable) -> &'static str {
+    match (variable.causality, &variable.kind) {
+        (Causality::Parameter | Causality::CalculatedParameter, _) => "fixed",
+        (_, Kind::Real(_)) => "continuous",
+        _ => "discrete",
+    }
+}
+
+/// Inputs must not state it: theirs is always exact.
+fn initial(causality: Causality) -> Option<&'static str> {
+    match causality {
+        Causality::Parameter => Some("exact"),
+        Causality::CalculatedParameter | Causality::Output => Some("calculated"),
+        Causality::Input => None,
+    }
+}
+
+fn details(variable: &Variable, version: Version) -> Attributes {
+    let mut list = Attributes::new();
+    let settable = variable.causality.is_settable();
+    match &variable.kind {
+        Kind::Real(quantity) => {
+            list.extend(typed(quantity.unit));
+            let ends = [("min", quantity.min), ("max", quantity.max)];
+            list.extend(
+                ends.into_iter()
+                    .filter(|(_, end)| end.is_finite())
+                    .map(|(name, end)| (name, number(end))),
+            );
+            list.push(("nominal", number(quantity.nominal)));
+            list.extend(settable.then(|| ("start", number(quantity.start))));
+        }
+        Kind::Integer { range, start } | Kind::Long { range, start } => {
+            let narrow = |end: i64| match version {
+                Version::Two => end.clamp(i64::from(i32::MIN), i64::from(i32::MAX)),
+                Version::Three => end,
+            };
+            list.push(("min", narrow(*range.start()).to_string()));
+            list.push(("max", narrow(*range.end()).to_string()));
+            list.extend(settable.then(|| ("start", narrow(*start).to_string())));
+        }
+        Kind::Enumeration {
+            type_name,
+            options,
+            start,
+        } => {
+            list.push(("declaredType", (*type_name).into()));
+            list.push(("min", "1".into()));
+            list.push(("max", options.len().to_string()));
+            list.extend(settable.then(|| ("start", start.to_string())));
+        }
+    }
+    list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of_each;
+
+    #[test]
+    fn an_array_is_described_as_its_elements_without_their_number() {
+        for (first, array) in [
+            ("Mass of body 1.", "Mass of each body."),
+            ("Body 1, seen from above", "each Body, seen from above"),
+            ("Body 12 of 1", "Body 12 each of"),
+            ("Height", "Height"),
+        ] {
+            assert_eq!(of_each(first), array);
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! FMU in, comparison with the reference trajectory inside it out: does this library compute here what it computed where
+//! it was made?
+//!
+//! The library is loaded and driven through FMI 3.0, which it speaks whatever version the FMU is for. On the same
+//! processor and C library all bits are equal. Elsewhere sines, exponentials and the like may differ in the last bit;
+//! what a model amplifies more than [`TOLERANCE`] allows is no longer rounding.
+
+mod description;
+mod trajectory;
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use fmi_component::{Error, Result};
+use zip::ZipArchive;
+
+use crate::importer::Library;
+use crate::platform::platform;
+use crate::reference;
+use description::{Column, Description};
+use trajectory::Trajectory;
+
+/// Largest difference that passes, relative to the greater of a variable's nominal and its largest value in the table.
+///
+/// Reference trajectories are short, so that a slip in the last place grows to far less within one.
+pub const TOLERANCE: f64 = 1e-6;
+
+/// Remedy for an FMU whose parts do not fit.
+const MAKE_ANEW: &str = "Write the FMU anew.";
+
+/// What a replay saw.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// Rows of the table.
+    pub rows: usize,
+    /// Values compared.
+    pub values: usize,
+    /// Values that differ in some bit.
+    pub differing: usize,
+    /// Greatest difference, relative as [`TOLERANCE`]; NaN or infinite where a value is.
+    pub largest: f64,
+    /// Where that was: variable and time \[s\].
+    pub place: Option<(String, f64)>,
+}
+
+impl Report {
+    /// Whether every difference is within [`TOLERANCE`].
+    pub fn passes(&self) -> bool {
+        self.largest <= TOLERANCE
+    }
+}
+
+/// Runs the library in `fmu` along its reference trajectory.
+///
+/// # Errors
+/// The file is no FMU of this crate, has no library for this platform, or the library refuses a call.
+pub fn replay(fmu: &Path) -> Result<Report> {
+    let refused = |what: String| Error::file(fmu, what, MAKE_ANEW);
+    let file = File::open(fmu).map_err(|error| Error::file(fmu, error, "Name an FMU."))?;
+    let mut archive = ZipArchive::new(file).map_err(|error| refused(error.to_string()))?;
+    let mut paths = archive.file_names().flatten();
+    let table = paths.find(|path| reference::is_path(path)).map(Cow::into_owned);
+    drop(paths);
+    let table = table.ok_or_else(|| refused("it holds no reference trajectory".into()))?;
+    let mut member = |path: &str| {
+        let mut bytes = Vec::new();
+        let found = archive.by_name(path).map_err(|error| error.to_string());
+        found
+            .and_then(|mut entry| entry.read_to_end(&mut bytes).map_err(|error| error.to_string()))
+            .map(|_| bytes)
+            .map_err(|error| refused(format!("{path}: {error}")))
+    };
+    let description = Description::read(&String::from_utf8_lossy(&member("modelDescription.xml")?))
+        .map_err(|error| refused(format!("modelDescription.xml: {error}")))?;
+    let trajectory = Trajectory::read(&member(&table)?).map_err(|error| refused(format!("{table}: {error}")))?;
+    let extension = std::env::consts::DLL_SUFFIX;
+    let folder = platform(description.version);
+    let binary = member(&format!("binaries/{folder}/{}{extension}", description.identifier))?;
+    let unknown = |name: &str| refused(format!("{table} names {name}, which modelDescription.xml does not"));
+    let column = |name: &String| description.column(name).ok_or_else(|| unknown(name));
+    let columns = trajectory.names[1..].iter().map(column).collect::<Result<Vec<_>>>()?;
+    compare(&description.token, &trajectory, &columns, &binary)
+}
+
+fn compare(token: &str, table: &Trajectory, columns: &[Column], binary: &[u8]) -> Result<Report> {
+    let (inputs, outputs): (Vec<_>, Vec<_>) = (1..table.names.len()).partition(|index| columns[index - 1].input);
+    let mut instance = Library::load(binary)?.instantiate(token)?;
+    instance.initialize(table.rows[0][0])?;
+    let mut report = Report {
+        rows: table.rows.len(),
+        values: 0,
+        differing: 0,
+        largest: 0.0,
+        place: None,
+    };
+    for (number, row) in table.rows.iter().enumerate() {
+        for index in &inputs {
+            instance.set(columns[index - 1].reference, row[*index])?;
+        }
+        let mut arrays = HashMap::new();
+        for index in &outputs {
+            let column = &columns[index - 1];
+            let values = match arrays.entry(column.reference) {
+                Entry::Occupied(read) => read.into_mut(),
+                Entry::Vacant(unread) => unread.insert(instance.get(column.reference, column.span)?),
+            };
+            let found = values[column.offset];
+            let scale = table.largest(*index).max(column.nominal);
+            report.note(row[*index], found, scale, (&table.names[*index], row[0]));
+        }
+        if let Some(next) = table.rows.get(number + 1) {
+            instance.step(row[0], next[0] - row[0], next[0])?;
+        }
+    }
+    Ok(report)
+}
+
+impl Report {
+    fn note(&mut self, expected: f64, found: f64, scale: f64, (name, time): (&str, f64)) {
+        self.values += 1;
+        if expected.to_bits() == found.to_bits() {
+            return;
+        }
+        self.differing += 1;
+        let difference = (found - expected).abs() / scale;
+        if difference.is_nan() || difference > self.largest || self.place.is_none() {
+            self.largest = difference;
+            self.place = Some((name.into(), time));
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! What is in an FMU: what each standard asks for, the same bytes each time, and what is told where it cannot be written.
+
+#![allow(unsafe_code, clippy::unwrap_used)]
+
+mod support;
+
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+use fmi_bundle::{Component, Version, find_library, model_description, pack, write};
+use support::{MODEL, component, folder, library};
+use zip::ZipArchive;
+
+/// Functions that an export table writes, from its source.
+fn functions(source: &str) -> Vec<&str> {
+    let lines = source.lines().filter_map(|line| line.trim().strip_prefix("fn "));
+    lines.map(|line| line.split('(').next().unwrap()).collect()
+}
+
+#[test]
+fn the_library_exports_all_functions_of_both_versions() {
+    // SAFETY: the library of the oscillators does nothing when it is loaded.
+    let library = unsafe { libloading::Library::new(library()) }.unwrap();
+    let two = functions(include_str!("../../fmi-component/src/c_api/export_fmi2.rs"));
+    let three = functions(include_str!("../../fmi-component/src/c_api/export_fmi3.rs"));
+    assert_eq!((two.len(), three.len()), (44, 75));
+    for name in two.into_iter().chain(three) {
+        // SAFETY: the function is not called.
+        let found = unsafe { library.get::<unsafe extern "C" fn()>(name) };
+        assert!(found.is_ok(), "{name}");
+    }
+}
+
+fn text(archive: &mut ZipArchive<Cursor<Vec<u8>>>, path: &str) -> String {
+    let mut bytes = Vec::new();
+    let mut entry = archive.by_name(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    entry.read_to_end(&mut bytes).unwrap();
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+#[test]
+fn an_fmu_holds_what_each_standard_asks_for() {
+    for (version, binary, icon) in [
+        (Version::Two, "binaries/linux64/oscillators.so", "model.png"),
+        (
+            Version::Three,
+            "binaries/x86_64-linux/oscillators.so",
+            "terminalsAndIcons/icon.png",
+        ),
+    ] {
+        let bytes = pack(&component(), version, b"library").unwrap();
+        assert_eq!(
+            bytes,
+            pack(&component(), version, b"library").unwrap(),
+            "the same bytes each time"
+        );
+        let mut archive = ZipArchive::new(Cursor::new(bytes)).unwrap();
+        assert_eq!(text(&mut archive, binary), "library");
+        assert!(text(&mut archive, icon).ends_with("PNG"));
+        let description = text(&mut archive, "modelDescription.xml");
+        assert!(description.contains(r#"copyright="Copyright (c) 2026 A. &amp; B. Author" license="MIT""#));
+        let page = text(&mut archive, "documentation/index.html");
+        assert!(
+            page.contains("bodies: 3") && page.contains("<code>mytool replay FILE.fmu</code>"),
+            "{page}"
+        );
+        let license = text(&mut archive, "documentation/licenses/license.txt");
+        assert!(
+            license.contains("MIT\n\nThe texts are beside this file: LICENSE-MIT.txt"),
+            "{license}"
+        );
+        let copied = text(&mut archive, "documentation/licenses/LICENSE-MIT.txt");
+        assert_eq!(copied, "Permission is hereby granted");
+        let reference = text(&mut archive, "extra/fmi-component/reference.csv");
+        assert!(reference.starts_with("time,frame.position,frame.velocity,frame.reaction_force,"));
+    }
+}
+
+#[test]
+fn the_model_description_says_what_is_there() {
+    let (two, three) = (
+        model_description::write(&component(), Version::Two),
+        model_description::write(&component(), Version::Three),
+    );
+    assert!(three.contains("&quot;m&quot; &lt; 10."), "text is escaped");
+    assert!(three.contains(r#"<DisplayUnit name="rpm" factor="9.549296585513721"/>"#));
+    assert!(three.contains(r#"<Int64 name="seed""#) && three.contains(r#"max="9223372036854775807" start="42""#));
+    assert!(two.contains(r#"<Integer min="0" max="2147483647" start="42"/>"#));
+    assert!(three.contains(r#"canSerializeFMUState="true""#) && two.contains(r#"canSerializeFMUstate="true""#));
+    let items = r#"<Item name="random" value="1" description="With velocities that the seed decides."/>"#;
+    assert!(two.contains(r#"<SimpleType name="start_pattern">"#) && two.contains(items));
+    assert!(three.contains(r#"<EnumerationType name="start_pattern">"#) && three.contains(items));
+    assert!(two.contains(r#"<Enumeration declaredType="start_pattern" min="1" max="2" start="1"/>"#));
+    assert!(three.contains(r#"<Enumeration name="start.pattern""#));
+    let version = env!("CARGO_PKG_VERSION");
+    for text in [&two, &three] {
+        assert!(text.contains(r#"bodies=3:"#));
+        assert!(text.contains(&format!(r#"generationTool="fmi-component {version}""#)));
+        assert_eq!(text.matches("calculatedParameter").count(), 1);
+    }
+}
+
+#[test]
+fn elements_become_one_array_where_arrays_are_wanted() {
+    let mut component = component();
+    component.arrays = true;
+    let text = model_description::write(&component, Version::Three);
+    assert!(text.contains(r#"<Float64 name="body.position" valueReference="13" description="Position of each body.""#));
+    assert!(text.contains(r#"<Dimension start="3"/>"#) && !text.contains("body.position["));
+    let message = pack(&component, Version::Two, b"").unwrap_err().to_string();
+    assert!(message.contains("FMI 2.0 has no arrays"), "{message}");
+}
+
+#[test]
+fn a_missing_library_is_told_with_the_remedy() {
+    let message = find_library("no_such_library", &[Path::new("here")])
+        .unwrap_err()
+        .to_string();
+    assert!(message.contains("not found in here"), "{message}");
+    assert!(message.contains("cargo build --release --workspace"), "{message}");
+    let message = write(&component(), Version::Two, Path::new("no_such.so"), Path::new("a.fmu"))
+        .unwrap_err()
+        .to_string();
+    assert!(message.contains("cargo build --release --workspace"), "{message}");
+}
+
+#[test]
+fn a_structural_parameter_out_of_range_is_told_with_its_range() {
+    let message = Component::new(&MODEL, &[("bodies", 101)]).unwrap_err().to_string();
+    assert!(message.contains("1 to 100"), "{message}");
+    let message = Component::new(&MODEL, &[("wheels", 1)]).unwrap_err().to_string();
+    assert!(message.contains("bodies"), "{message}");
+}
+
+#[test]
+fn an_fmu_that_cannot_be_written_leaves_no_file_and_says_why() {
+    let folder = folder("refused");
+    let refused = |out: &Path| {
+        write(&component(), Version::Three, &library(), out)
+            .unwrap_err()
+            .to_string()
+    };
+    let message = refused(&folder.join("missing/a.fmu"));
+    assert!(message.contains("missing does not exist. Create it"), "{message}");
+    std::fs::create_dir(folder.join("b.fmu")).unwrap();
+    let message = refused(&folder.join("b.fmu"));
+    assert!(
+        message.contains("it is a folder. Give the name of a file."),
+        "{message}"
+    );
+    let left: Vec<_> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .collect();
+    assert_eq!(left, ["b.fmu"]);
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -1,0 +1,212 @@
+//! What `fmi2Component` and `fmi3Instance` point to, and the way in and out of every call.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::ptr::null_mut;
+
+use super::listener::Listener;
+use super::logger::{Category, Logger};
+use super::saved_states::SavedStates;
+use super::types::{Opaque, Status};
+use crate::error::{Error, Result};
+use crate::handle::{self, describe};
+use crate::instance::Instance;
+use crate::life_cycle::Version;
+
+/// What an instance pointer points to.
+type Handle = handle::Handle<Component, 0x464d_4943_4f4d_5054>;
+
+/// An instance with what it needs to talk to its importer.
+pub struct Component {
+    /// The instance.
+    pub instance: Instance,
+    /// The importer's log.
+    pub logger: Logger,
+    /// How the last step ended, for `fmi2GetStatus`.
+    pub last_step: Status,
+    /// Communication point and step size that were refused last.
+    refused: Option<(f64, f64)>,
+    version: Version,
+    /// To whom events inside of a step are reported.
+    pub listener: Option<Listener>,
+    /// What it saved.
+    pub states: SavedStates,
+}
+
+/// A call of an importer.
+#[derive(Debug, Clone, Copy)]
+pub struct Entry {
+    /// The instance, as the importer passes it.
+    pub pointer: Opaque,
+    /// The standard whose function is called.
+    pub version: Version,
+    /// Name of the function, for messages.
+    pub function: &'static str,
+}
+
+/// Makes an instance. Null, after a log message, when `make` refuses or panics.
+pub fn instantiate(
+    version: Version,
+    function: &str,
+    mut logger: Logger,
+    make: impl FnOnce() -> Result<(Instance, Option<Listener>)>,
+) -> Opaque {
+    let refusal = match catch_unwind(AssertUnwindSafe(make)) {
+        Ok(Ok((instance, listener))) => {
+            let message = format!("{function}: {}", instance.token());
+            logger.log(Status::Ok, Category::Events, &message);
+            let component = Component {
+                instance,
+                logger,
+                last_step: Status::Ok,
+                refused: None,
+                version,
+                listener,
+                states: SavedStates::default(),
+            };
+            return Handle::hand_out(component).cast();
+        }
+        Ok(Err(error)) => error.to_string(),
+        Err(panic) => describe(&*panic),
+    };
+    logger.refuse(&format!("{function}: {refusal}"));
+    null_mut()
+}
+
+/// Frees an instance with all its states. Null is ignored, as both standards ask, and so is an instance of the other version
+/// or one that is at work, such as from inside a callback of this very instance or while it reports an intermediate update.
+///
+/// # Safety
+/// `pointer` is null or an instance of this library that was not freed before.
+pub unsafe fn free(pointer: Opaque, version: Version) {
+    // SAFETY: by the caller's promise.
+    let _ = unsafe {
+        Handle::free(pointer.cast(), |component| {
+            component.version == version && !component.instance.is_stepping()
+        })
+    };
+}
+
+impl Entry {
+    /// The way into an instance: checks the pointer, keeps others out, catches panics, logs what went wrong. Shut inside of
+    /// an intermediate update.
+    ///
+    /// # Safety
+    /// The pointer is null or an instance of this library that was not freed.
+    pub unsafe fn change(self, work: impl FnOnce(&mut Component) -> Result<()>) -> Status {
+        let checked = |component: &mut Component| {
+            component.instance.check_change()?;
+            work(component)
+        };
+        // SAFETY: by the caller's promise.
+        unsafe {
+            Handle::enter(self.pointer.cast_const().cast(), |component| {
+                component.answer(self, checked)
+            })
+        }
+        .unwrap_or(Status::Error)
+    }
+
+    /// The way in for calls that only read values, which are allowed inside of an intermediate update.
+    ///
+    /// # Safety
+    /// As for [`Entry::change`].
+    pub unsafe fn read(self, work: impl FnOnce(&mut Component) -> Result<()>) -> Status {
+        // SAFETY: by the caller's promise.
+        unsafe {
+            Handle::enter(self.pointer.cast_const().cast(), |component| {
+                component.answer(self, work)
+            })
+        }
+        .unwrap_or(Status::Error)
+    }
+
+    /// The way back in for a step that was left for an intermediate update.
+    ///
+    /// # Safety
+    /// As for [`Entry::change`].
+    pub unsafe fn resume(self, work: impl FnOnce(&mut Component) -> Result<()>) -> Status {
+        // SAFETY: by the caller's promise.
+        unsafe {
+            Handle::resume(self.pointer.cast_const().cast(), |component| {
+                component.answer(self, work)
+            })
+        }
+        .unwrap_or(Status::Error)
+    }
+}
+
+impl Component {
+    fn answer(&mut self, entry: Entry, work: impl FnOnce(&mut Self) -> Result<()>) -> Status {
+        if self.version != entry.version {
+            return Status::Error;
+        }
+        let (status, category, message) = match catch_unwind(AssertUnwindSafe(|| work(self))) {
+            Ok(Ok(())) => return Status::Ok,
+            Ok(Err(error @ Error::Step { .. })) => (Status::Discard, Category::Discard, error.to_string()),
+            Ok(Err(error)) => (Status::Error, Category::Error, error.to_string()),
+            Err(panic) => {
+                self.instance.fail();
+                let message = format!("{}. This instance has failed", describe(&*panic));
+                (Status::Error, Category::Error, message)
+            }
+        };
+        let message = format!("{}: {message}", entry.function);
+        self.logger.log(status, category, &message);
+        status
+    }
+
+    /// Notes how the step from `asked.0` by `asked.1` ended.
+    ///
+    /// A step that the model cannot do is discarded, so that the importer may try a shorter one. Asked for the very same
+    /// step again, the answer is an error: there are importers that otherwise repeat a discarded step for ever.
+    ///
+    /// # Errors
+    /// That of `done`, with [`Error::Call`] in the place of a repeated [`Error::Step`].
+    pub fn note<T>(&mut self, asked: (f64, f64), done: Result<T>) -> Result<T> {
+        if done.is_ok() {
+            self.last_step = Status::Ok;
+            self.refused = None;
+        }
+        done.map_err(|error| self.note_refusal(asked, error))
+    }
+
+    #[cold]
+    fn note_refusal(&mut self, asked: (f64, f64), error: Error) -> Error {
+        let repeated = self.refused == Some(asked);
+        match error {
+            Error::Step {
+                model,
+                time,
+                what,
+                remedy,
+            } if repeated => {
+                self.last_step = Status::Error;
+                let what = format!("{model}: the same step refused again at t = {time} s: {what}");
+                Error::call(what, remedy)
+            }
+            Error::Step { .. } => {
+                self.last_step = Status::Discard;
+                self.refused = Some(asked);
+                error
+            }
+            _ => {
+                self.last_step = Status::Error;
+                error
+            }
+        }
+    }
+
+    /// Becomes as a new instance. Saved states stay: the importer frees them.
+    pub fn reset(&mut self) {
+        self.instance.reset();
+        self.last_step = Status::Ok;
+        self.refused = None;
+    }
+
+    /// Logs a change in the life of the instance.
+    pub fn log_phase(&self, function: &str) {
+        let (phase, time) = (self.instance.phase().name(), self.instance.time());
+        let message = format!("{function}: {phase} at t = {time} s");
+        self.logger.log(Status::Ok, Category::Events, &message);
+    }
+}

@@ -1,0 +1,200 @@
+//! Values of variables: getters and setters of every type, alike in both versions but for the names of the functions.
+
+use super::component::{Component, Entry};
+use super::types::Status;
+use crate::error::{Error, Result};
+use crate::instance::{Access, Instance};
+use crate::memory;
+use crate::variable::Value;
+
+/// The arrays of a getter (`T = *mut f64`) or setter (`T = *const f64`), each null or of the length given.
+#[derive(Clone, Copy)]
+pub struct Arrays<T> {
+    /// Value references.
+    pub references: *const u32,
+    /// How many references there are.
+    pub count: usize,
+    /// Values.
+    pub values: T,
+    /// How many values there are; in FMI 2.0 as many as references.
+    pub length: usize,
+}
+
+/// `fmi2GetReal`, `fmi3GetFloat64`.
+///
+/// # Safety
+/// As for [`Entry::change`] and [`Arrays`].
+pub unsafe fn get_real(entry: Entry, arrays: Arrays<*mut f64>) -> Status {
+    // SAFETY: passed on.
+    unsafe { entry.read(|component| component.get(arrays, Access::Real, real)) }
+}
+
+/// `fmi2GetInteger`, `fmi3GetInt32`.
+///
+/// # Safety
+/// As for [`Entry::change`] and [`Arrays`].
+pub unsafe fn get_integer(entry: Entry, arrays: Arrays<*mut i32>, access: Access) -> Status {
+    // SAFETY: passed on.
+    unsafe { entry.read(|component| component.get(arrays, access, whole)) }
+}
+
+/// `fmi3GetInt64`.
+///
+/// # Safety
+/// As for [`Entry::change`] and [`Arrays`].
+pub unsafe fn get_long(entry: Entry, arrays: Arrays<*mut i64>) -> Status {
+    // SAFETY: passed on.
+    unsafe { entry.read(|component| component.get(arrays, Access::Long, whole)) }
+}
+
+/// `fmi2SetReal`, `fmi3SetFloat64`.
+///
+/// # Safety
+/// As for [`Entry::change`] and [`Arrays`].
+pub unsafe fn set_real(entry: Entry, arrays: Arrays<*const f64>) -> Status {
+    // SAFETY: passed on.
+    unsafe { entry.change(|component| component.set(arrays, Access::Real, Value::Real)) }
+}
+
+/// `fmi2SetInteger`, `fmi3SetInt32`.
+///
+/// # Safety
+/// As for [`Entry::change`] and [`Arrays`].
+pub unsafe fn set_integer(entry: Entry, arrays: Arrays<*const i32>, access: Access) -> Status {
+    // SAFETY: passed on.
+    unsafe { entry.change(|component| component.set(arrays, access, |value| Value::Integer(value.into()))) }
+}
+
+/// `fmi3SetInt64`.
+///
+/// # Safety
+/// As for [`Entry::change`] and [`Arrays`].
+pub unsafe fn set_long(entry: Entry, arrays: Arrays<*const i64>) -> Status {
+    // SAFETY: passed on.
+    unsafe { entry.change(|component| component.set(arrays, Access::Long, Value::Integer)) }
+}
+
+/// `fmi2GetRealOutputDerivatives`, `fmi3GetOutputDerivatives`.
+///
+/// # Safety
+/// As for [`Entry::change`] and [`Arrays`]; `orders` is null or has as many elements as there are references.
+pub unsafe fn get_output_derivatives(entry: Entry, orders: *const i32, arrays: Arrays<*mut f64>) -> Status {
+    // SAFETY: passed on.
+    unsafe {
+        entry.read(|component| {
+            let orders = memory::slice(orders, arrays.count, "the array of orders")?;
+            component.fill(arrays, |instance, number, reference, offset| {
+                instance.output_derivative(reference, offset, orders[number])
+            })
+        })
+    }
+}
+
+/// `fmi2SetRealInputDerivatives`. FMI 3.0 has no such function.
+///
+/// # Safety
+/// As for [`Entry::change`] and [`Arrays`]; `orders` is null or has as many elements as there are references.
+pub unsafe fn set_input_derivatives(entry: Entry, orders: *const i32, arrays: Arrays<*const f64>) -> Status {
+    // SAFETY: passed on.
+    unsafe {
+        entry.change(|component| {
+            let references = memory::slice(arrays.references, arrays.count, "the array of value references")?;
+            let orders = memory::slice(orders, arrays.count, "the array of orders")?;
+            let values = memory::slice(arrays.values, arrays.length, "the array of values")?;
+            component.instance.set_input_derivatives(references, orders, values)
+        })
+    }
+}
+
+impl Component {
+    /// Reads variables into the importer's array.
+    ///
+    /// # Safety
+    /// As for [`Arrays`].
+    ///
+    /// # Errors
+    /// Bad pointers, wrong lengths, unknown references, other types, not computed yet.
+    unsafe fn get<T>(
+        &mut self,
+        arrays: Arrays<*mut T>,
+        access: Access,
+        convert: impl Fn(Value) -> Option<T>,
+    ) -> Result<()> {
+        let read = |instance: &mut Instance, _, reference, offset| {
+            let value = instance.element(reference, offset, access)?;
+            convert(value).ok_or_else(|| {
+                Error::call(
+                    format!("value reference {reference} holds {value:?}, which does not fit this type"),
+                    "Read it through FMI 3.0.",
+                )
+            })
+        };
+        // SAFETY: by the caller's promise.
+        unsafe { self.fill(arrays, read) }
+    }
+
+    /// Fills the importer's array with what `read` gives for each element: number of the reference, reference, offset.
+    ///
+    /// # Safety
+    /// As for [`Arrays`].
+    ///
+    /// # Errors
+    /// Bad pointers, wrong lengths, and what `read` refuses.
+    unsafe fn fill<T>(
+        &mut self,
+        arrays: Arrays<*mut T>,
+        read: impl Fn(&mut Instance, usize, u32, usize) -> Result<T>,
+    ) -> Result<()> {
+        // SAFETY: by the caller's promise.
+        let references = unsafe { memory::slice(arrays.references, arrays.count, "the array of value references") }?;
+        // SAFETY: by the caller's promise.
+        let mut values = unsafe { memory::Output::new(arrays.values, arrays.length, "the array of values") }?;
+        let elements = references.iter().map(|reference| self.instance.span(*reference)).sum();
+        memory::check_length(arrays.length, elements, "the array of values")?;
+        let mut index = 0;
+        for (number, reference) in references.iter().enumerate() {
+            for offset in 0..self.instance.span(*reference) {
+                values.write(index, read(&mut self.instance, number, *reference, offset)?);
+                index += 1;
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets variables from the importer's array: all, or none if one is refused. Nothing that can be set is an array.
+    ///
+    /// # Safety
+    /// As for [`Arrays`].
+    ///
+    /// # Errors
+    /// Bad pointers, wrong lengths, unknown references, other types, values out of range, wrong phase.
+    unsafe fn set<T: Copy>(
+        &mut self,
+        arrays: Arrays<*const T>,
+        access: Access,
+        convert: impl Fn(T) -> Value,
+    ) -> Result<()> {
+        memory::check_length(arrays.length, arrays.count, "the array of values")?;
+        // SAFETY: by the caller's promise.
+        let references = unsafe { memory::slice(arrays.references, arrays.count, "the array of value references") }?;
+        // SAFETY: by the caller's promise.
+        let values = unsafe { memory::slice(arrays.values, arrays.count, "the array of values") }?;
+        self.instance.set(references, access, |index| convert(values[index]))
+    }
+}
+
+/// The real in a value. A count read as a real is that number.
+fn real(value: Value) -> Option<f64> {
+    match value {
+        Value::Real(real) => Some(real),
+        Value::Integer(integer) => i32::try_from(integer).ok().map(f64::from),
+    }
+}
+
+/// The integer in a value, if it fits.
+fn whole<T: TryFrom<i64>>(value: Value) -> Option<T> {
+    match value {
+        Value::Integer(integer) => T::try_from(integer).ok(),
+        Value::Real(_) => None,
+    }
+}

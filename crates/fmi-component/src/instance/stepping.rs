@@ -1,0 +1,167 @@
+//! Steps of an instance: as a whole, to the first event, or from event to event with a report to the importer at each.
+//!
+//! Guarantees: a refused step leaves time, values and state as before, even if events inside of it were reported already.
+
+use super::{Instance, Snapshot};
+use crate::error::{Error, Result};
+use crate::life_cycle::{Call, Phase};
+use crate::model::Reached;
+use crate::times::check_time;
+
+/// Importers add up communication points in their own way; as much of a step may differ from ours.
+const POINT_TOLERANCE_OF_STEP: f64 = 1e-6;
+/// As many units in the last place of the time may differ besides.
+const POINT_TOLERANCE_OF_TIME: f64 = 64.0 * f64::EPSILON;
+
+/// How far a step got that goes from event to event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Part {
+    /// To an event at this time \[s\], before the end of the step. [`Instance::resume_step`] does the rest.
+    Event(f64),
+    /// To its end, or to where the importer wanted to have it ended.
+    Done(Reached),
+}
+
+/// A step that is not done yet.
+pub(super) struct UnderWay {
+    /// All as it was before the step, in case that the rest is refused.
+    before: Snapshot,
+    /// Where it is to end \[s\].
+    end: f64,
+}
+
+impl Instance {
+    /// Advances from `current` \[s\] by `step` \[s\], or to the first event in between if the importer handles events in
+    /// event mode and lets a step end early. Otherwise events are handled on the way.
+    ///
+    /// # Errors
+    /// [`Error::Step`] if the model cannot do it; anything else if the arguments are wrong. Time, values and state are
+    /// then as before, and the importer may try again.
+    pub fn do_step(&mut self, current: f64, step: f64) -> Result<Reached> {
+        Call::DoStep.check(self.phase)?;
+        let end = self.end_of_step(current, step)?;
+        if self.importer.stops_at_events() {
+            return self.simulation.advance_to_event(end);
+        }
+        self.simulation.advance_to(end)?;
+        Ok(Reached {
+            time: end,
+            event: false,
+        })
+    }
+
+    /// Begins a step from `current` \[s\] by `step` \[s\] that stops at every event inside of it, to be resumed from there.
+    ///
+    /// # Errors
+    /// As [`Instance::do_step`].
+    pub fn begin_step(&mut self, current: f64, step: f64) -> Result<Part> {
+        Call::DoStep.check(self.phase)?;
+        let end = self.end_of_step(current, step)?;
+        let before = self.save()?;
+        let reached = self.simulation.advance_to_event(end);
+        self.end_part(UnderWay { before, end }, reached)
+    }
+
+    /// Resumes a step after an event. The step ends at `early_return` \[s\] if that is given, or at once if it is past or not
+    /// finite. Of several such times the first counts; one beyond the end changes nothing.
+    ///
+    /// # Errors
+    /// No step is under way, or the model refuses the rest: all is then as before the step.
+    pub fn resume_step(&mut self, early_return: Option<f64>) -> Result<Part> {
+        let under_way = self.under_way.take();
+        Call::Resume.check(self.phase)?;
+        let Some(mut step) = under_way else {
+            return Err(Error::call("no step is under way", "Reset the instance."));
+        };
+        let now = self.time();
+        if let Some(time) = early_return {
+            let wanted = if time.is_finite() { time.max(now) } else { now };
+            step.end = step.end.min(wanted);
+        }
+        let reached = match step.end > now {
+            true => self.simulation.resume_to_event(step.end),
+            false => Ok(Reached {
+                time: now,
+                event: false,
+            }),
+        };
+        self.end_part(step, reached)
+    }
+
+    /// Whether a step is under way of which an event is reported: anything but reading would pull the ground from under it.
+    pub fn is_stepping(&self) -> bool {
+        self.under_way.is_some()
+    }
+
+    /// Refuses all that is more than reading while a step is under way.
+    ///
+    /// # Errors
+    /// A step is under way.
+    pub fn check_change(&self) -> Result<()> {
+        match self.under_way {
+            Some(_) => Call::Change.check(Phase::IntermediateUpdate),
+            None => Ok(()),
+        }
+    }
+
+    /// What is left of a step of which a part was done. An event at the end of the step does not make it another step.
+    fn end_part(&mut self, step: UnderWay, reached: Result<Reached>) -> Result<Part> {
+        match reached {
+            Ok(Reached { time, .. }) if time < step.end => {
+                self.phase = Phase::IntermediateUpdate;
+                self.under_way = Some(step);
+                Ok(Part::Event(time))
+            }
+            Ok(Reached { time, .. }) => {
+                self.phase = Phase::Step;
+                Ok(Part::Done(Reached { time, event: false }))
+            }
+            Err(refused) => {
+                self.go_to(&step.before).inspect_err(|_| self.fail())?;
+                Err(refused)
+            }
+        }
+    }
+
+    /// The importer's own sum, so that its next communication point is ours bit for bit.
+    fn end_of_step(&self, current: f64, step: f64) -> Result<f64> {
+        let now = self.time();
+        if !(step.is_finite() && step > 0.0) {
+            return Err(Error::parameter(
+                "communication step size",
+                format!("{step} s"),
+                "finite and greater than 0",
+                "Both standards ask for steps forward in time; read outputs without a step.",
+            ));
+        }
+        let tolerance = POINT_TOLERANCE_OF_STEP * step + POINT_TOLERANCE_OF_TIME * now.abs();
+        let fits = (current - now).abs() <= tolerance;
+        if !fits {
+            return Err(Error::parameter(
+                "current communication point",
+                format!("{current} s"),
+                format!("{now} s within {tolerance:e} s, where the last step ended"),
+                "Steps join without gaps; restore a saved state to go back.",
+            ));
+        }
+        let end = current + step;
+        check_time("end of the step", end)?;
+        if end <= now {
+            return Err(Error::parameter(
+                "communication step size",
+                format!("{step} s"),
+                format!("large enough to move the time {now} s in double precision"),
+                "Take larger steps or start nearer to time zero.",
+            ));
+        }
+        match self.stop {
+            Some(stop) if end > stop + tolerance + POINT_TOLERANCE_OF_TIME * stop.abs() => Err(Error::parameter(
+                "end of the step",
+                format!("{end} s"),
+                format!("not after the stop time {stop} s given at set-up"),
+                "Shorten the step or leave the stop time undefined.",
+            )),
+            _ => Ok(end),
+        }
+    }
+}

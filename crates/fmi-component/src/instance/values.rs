@@ -1,0 +1,266 @@
+//! Values of an instance by value reference: who may read or set what, when, and as which type.
+
+use super::Instance;
+use crate::arrays;
+use crate::error::{Error, Result};
+use crate::life_cycle::Phase;
+use crate::standard::TIME_REFERENCE;
+use crate::variable::{Causality, Kind, Value, Variable};
+
+/// The type by which an importer reads or writes a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Access {
+    /// `fmi2Real`, `fmi3Float64`.
+    Real,
+    /// `fmi3Int32`.
+    Integer,
+    /// `fmi3Int64`, which serves enumerations too.
+    Long,
+    /// `fmi2Integer`, which serves all whole numbers.
+    AnyInteger,
+}
+
+impl Access {
+    /// A count or an option among the outputs may be read as a real too: there are importers that read all outputs so.
+    fn fits(self, variable: &Variable) -> bool {
+        match variable.kind {
+            Kind::Real(_) => self == Self::Real,
+            Kind::Integer { .. } => {
+                matches!(self, Self::Integer | Self::AnyInteger)
+                    || self == Self::Real && variable.causality == Causality::Output
+            }
+            Kind::Enumeration { .. } if self == Self::Real => variable.causality == Causality::Output,
+            Kind::Long { .. } | Kind::Enumeration { .. } => matches!(self, Self::Long | Self::AnyInteger),
+        }
+    }
+}
+
+/// What each get and set looks up of a variable.
+pub(super) struct Slot {
+    /// Elements of the variable: 1 for a scalar, 0 inside of an array.
+    span: usize,
+    /// Bit n is set if access number n fits.
+    accesses: u8,
+    computed: bool,
+}
+
+impl Slot {
+    /// Those of `variables`, of which the computed ones with an index are `arrays` or scalars.
+    pub(super) fn of(variables: &[Variable], arrays: bool) -> Vec<Self> {
+        let spans = match arrays {
+            true => arrays::spans(variables),
+            false => vec![1; variables.len()],
+        };
+        let all = [Access::Real, Access::Integer, Access::Long, Access::AnyInteger];
+        let slot = |(variable, span): (&Variable, usize)| Self {
+            span,
+            accesses: all
+                .iter()
+                .map(|access| u8::from(access.fits(variable)) << *access as u8)
+                .sum(),
+            computed: !variable.causality.is_settable(),
+        };
+        variables.iter().zip(spans).map(slot).collect()
+    }
+}
+
+impl Instance {
+    /// Elements of the variable behind `reference`: 1 for a scalar, and for a reference that will be refused.
+    #[inline]
+    pub fn span(&self, reference: u32) -> usize {
+        self.slot(reference).map_or(1, |slot| slot.span.max(1))
+    }
+
+    /// Whether a variable is behind `reference`.
+    pub fn knows(&self, reference: u32) -> bool {
+        reference == TIME_REFERENCE || self.slot(reference).is_some_and(|slot| slot.span > 0)
+    }
+
+    /// Value behind `reference`; of an array the first element.
+    ///
+    /// # Errors
+    /// Unknown reference, other type, or an output before initialisation or after a panic.
+    pub fn get(&mut self, reference: u32, access: Access) -> Result<Value> {
+        self.element(reference, 0, access)
+    }
+
+    /// Element `offset` of the variable behind `reference`; a scalar has element 0 alone.
+    ///
+    /// # Errors
+    /// As [`Instance::get`].
+    #[inline]
+    pub fn element(&mut self, reference: u32, offset: usize, access: Access) -> Result<Value> {
+        if reference == TIME_REFERENCE && access == Access::Real {
+            return Ok(Value::Real(self.time()));
+        }
+        let position = self.position(reference, access)? + offset;
+        self.read(position)
+    }
+
+    /// Rate of change of an output. Of first order, where the model names a variable that is just that (an angle has an
+    /// angular velocity); of any other output it is 0, which is both standards' answer where the order is not available.
+    ///
+    /// # Errors
+    /// Unknown reference, no real output, an order that is not offered, or before initialisation.
+    pub fn output_derivative(&mut self, reference: u32, offset: usize, order: i32) -> Result<f64> {
+        let position = self.position(reference, Access::Real)? + offset;
+        let variable = &self.table.variables()[position];
+        let highest = i32::from(self.table.has_derivatives(Causality::Output));
+        if !(1..=highest).contains(&order) {
+            return Err(Error::call(
+                format!("the derivative of order {order} of {} is not offered", variable.name),
+                format!("maxOutputDerivativeOrder = {highest}; the orders are counted from 1."),
+            ));
+        }
+        if variable.causality != Causality::Output {
+            return Err(Error::call(
+                format!("{} is no output", variable.name),
+                "Ask for derivatives of outputs.",
+            ));
+        }
+        let derivative = self.table.derivative(position);
+        match self.read(derivative.unwrap_or(position))? {
+            Value::Real(rate) if derivative.is_some() => Ok(rate),
+            _ => Ok(0.0),
+        }
+    }
+
+    /// Sets the rates of change of inputs: another way to set the input that is just that, such as a velocity for a position.
+    /// All, or none if one is refused. The arrays are equally long.
+    ///
+    /// # Errors
+    /// As [`Instance::set`]; an order other than 1; an input whose derivative the model does not use.
+    pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<()> {
+        let mut targets = Vec::with_capacity(references.len());
+        for (reference, order) in references.iter().zip(orders) {
+            let position = self.position(*reference, Access::Real)?;
+            let variable = &self.table.variables()[position];
+            let input = variable.causality == Causality::Input && *order == 1;
+            let Some(target) = self.table.derivative(position).filter(|_| input) else {
+                return Err(Error::call(
+                    format!("the derivative of order {order} of {} has no effect", variable.name),
+                    "The model uses that of order 1 of inputs whose derivative is an input too.",
+                ));
+            };
+            targets.push(crate::standard::value_reference(target));
+        }
+        self.set(&targets, Access::Real, |index| Value::Real(values[index]))
+    }
+
+    /// Stores all values or, if one of them is refused, none.
+    ///
+    /// # Errors
+    /// Unknown reference, other type, not to be set in this phase or at all, not finite, out of range.
+    pub fn set(&mut self, references: &[u32], access: Access, value: impl Fn(usize) -> Value) -> Result<()> {
+        for (index, reference) in references.iter().enumerate() {
+            let variable = &self.table.variables()[self.position(*reference, access)?];
+            self.check_settable(variable)?;
+            variable.check(value(index))?;
+        }
+        if self.phase == Phase::Initialization && !references.is_empty() {
+            self.simulation.stop(); // a model of the old values may have been built for reading outputs
+        }
+        for (index, reference) in references.iter().enumerate() {
+            let position = self.position(*reference, access)?;
+            self.simulation.set_at(position, value(index))?;
+        }
+        Ok(())
+    }
+
+    /// Value at `position`. In initialization mode a model of the values as they stand is built first, if need be.
+    #[inline]
+    fn read(&mut self, position: usize) -> Result<Value> {
+        if self.slots[position].computed {
+            match self.phase {
+                Phase::Instantiated => return Err(not_computed(&self.table.variables()[position])),
+                Phase::Initialization => self.build()?,
+                Phase::Failed => return Err(not_known(&self.table.variables()[position])),
+                _ => {}
+            }
+        }
+        self.simulation.value(position)
+    }
+
+    fn check_settable(&self, variable: &Variable) -> Result<()> {
+        let before = matches!(self.phase, Phase::Instantiated | Phase::Initialization);
+        let running = matches!(self.phase, Phase::Event | Phase::Step);
+        match variable.causality {
+            Causality::Parameter if before => Ok(()),
+            Causality::Input if before || running => Ok(()),
+            _ => Err(not_settable(variable, self.phase)),
+        }
+    }
+
+    #[inline]
+    fn slot(&self, reference: u32) -> Option<&Slot> {
+        self.slots.get((reference as usize).wrapping_sub(1))
+    }
+
+    /// Position of the variable behind `reference`, if it can be accessed so.
+    #[inline]
+    fn position(&self, reference: u32, access: Access) -> Result<usize> {
+        match self.slot(reference) {
+            Some(slot) if slot.span > 0 && slot.accesses >> access as u8 & 1 == 1 => Ok(reference as usize - 1),
+            slot => Err(self.no_access(reference, slot)),
+        }
+    }
+
+    #[cold]
+    fn no_access(&self, reference: u32, slot: Option<&Slot>) -> Error {
+        let what = match slot {
+            None if reference == TIME_REFERENCE => {
+                "value reference 0 is the time, a real that only steps change".into()
+            }
+            None => format!(
+                "value reference {reference} is unknown, there are 0 to {}",
+                self.slots.len()
+            ),
+            Some(Slot { span: 0, .. }) => format!("value reference {reference} is inside of an array"),
+            Some(_) => return of_another_type(&self.table.variables()[reference as usize - 1], reference),
+        };
+        Error::call(what, "Take the value references from modelDescription.xml.")
+    }
+}
+
+#[cold]
+fn not_computed(variable: &Variable) -> Error {
+    Error::call(
+        format!("{} is not computed yet", variable.name),
+        "Enter initialization mode first.",
+    )
+}
+
+#[cold]
+fn not_known(variable: &Variable) -> Error {
+    Error::call(
+        format!("{} is not known: the instance has failed", variable.name),
+        "Reset the instance, restore a saved state or free it.",
+    )
+}
+
+#[cold]
+fn not_settable(variable: &Variable, phase: Phase) -> Error {
+    let remedy = match variable.causality {
+        Causality::Parameter => "Parameters are frozen when initialization ends: reset, then set it.",
+        Causality::Input => "Inputs may be set until the simulation is terminated.",
+        Causality::Output | Causality::CalculatedParameter => "The model computes it: read it only.",
+    };
+    Error::call(
+        format!("{} cannot be set in the phase {}", variable.name, phase.name()),
+        remedy,
+    )
+}
+
+#[cold]
+fn of_another_type(variable: &Variable, reference: u32) -> Error {
+    let kind = match variable.kind {
+        Kind::Real(_) => "real (Real, Float64)",
+        Kind::Integer { .. } => "32-bit integer (Integer, Int32)",
+        Kind::Long { .. } => "64-bit integer (Integer, Int64)",
+        Kind::Enumeration { .. } => "enumeration (Integer, Int64)",
+    };
+    Error::call(
+        format!("{} (value reference {reference}) is of type {kind}", variable.name),
+        "Call the function of this type.",
+    )
+}

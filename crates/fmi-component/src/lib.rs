@@ -1,0 +1,59 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # How it works
+//!
+//! A model implements [`Model`]: its variables as [`Row`]s, each with name, unit, range, start value, meaning, dependencies and
+//! how its value is read; how it starts, advances, saves and restores its state. From that this crate makes
+//!
+//! - a [`Simulation`] for Rust programs: parameters in, then inputs, steps and outputs by name;
+//! - the same behind a pointer, [`DynSimulation`], for programs that choose the model at run time;
+//! - an [`Instance`], which owns such a simulation and adds the life cycle of FMI, events in the midst of steps and arrays;
+//! - the C functions around an instance (module [`c_api`]), exported by [`export_fmu!`].
+//!
+//! A step goes down, one level a call, and outputs are computed on the way of those who ask for them:
+//!
+//! ```text
+//! importer -> fmi2DoStep, fmi3DoStep    exported by the macro
+//!          -> Entry::change             pointer, lock, panics, messages
+//!          -> Instance::do_step         phase, communication point, stop time
+//!          -> Simulation::advance_to    time, inputs -> Model::advance_to
+//! ```
+//!
+//! Not here: files (the crate `fmi-bundle` writes model descriptions and FMUs) and physics.
+
+pub mod arrays;
+pub mod c_api;
+mod dynamic;
+pub mod error;
+pub mod handle;
+mod info;
+pub mod instance;
+pub mod life_cycle;
+pub mod memory;
+mod model;
+mod row;
+pub mod saved_bytes;
+mod simulation;
+mod standard;
+mod structure;
+mod table;
+pub mod times;
+pub mod token;
+mod unit;
+mod values;
+pub mod variable;
+
+pub use dynamic::{DynSaved, DynSimulation, ModelType};
+pub use error::{Error, Result};
+pub use info::{ModelInfo, StructuralParameter};
+pub use instance::{Importer, Instance};
+pub use life_cycle::{Phase, Version};
+pub use model::{Model, Reached};
+pub use row::{Read, Row};
+pub use simulation::{Saved, Simulation};
+pub use standard::{LOG_CATEGORIES, TIME_REFERENCE, TOLERANCE, value_reference};
+pub use structure::StructuralParameters;
+pub use table::Table;
+pub use unit::Unit;
+pub use values::Values;
+pub use variable::{Causality, Kind, Quantity, TIME, TerminalMember, Value, Variable};

@@ -1,0 +1,265 @@
+//! One row per variable of a model `M`: what is known of it, and how its value is read.
+
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+
+use crate::unit::Unit;
+use crate::variable::{Causality, Kind, Quantity, TerminalMember, Value, Variable};
+
+/// How the value of a computed variable is read from a model. Reading changes nothing.
+#[derive(Debug)]
+pub enum Read<M> {
+    /// A real.
+    Real(fn(&M) -> f64),
+    /// Element of a real array, counted from 0.
+    RealElement(fn(&M, usize) -> f64, usize),
+    /// A whole number or the number of an option.
+    Integer(fn(&M) -> i64),
+    /// Element of an array of whole numbers, counted from 0.
+    IntegerElement(fn(&M, usize) -> i64, usize),
+}
+
+// Derived ones would ask for M: Copy.
+impl<M> Clone for Read<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for Read<M> {}
+
+impl<M> Read<M> {
+    /// The present value.
+    pub fn value(&self, model: &M) -> Value {
+        match *self {
+            Self::Real(read) => Value::Real(read(model)),
+            Self::RealElement(read, index) => Value::Real(read(model, index)),
+            Self::Integer(read) => Value::Integer(read(model)),
+            Self::IntegerElement(read, index) => Value::Integer(read(model, index)),
+        }
+    }
+}
+
+/// A variable of a model `M`. Made by the constructors, refined by the methods that return it.
+///
+/// ```
+/// use fmi_component::{Row, Unit};
+///
+/// struct Pendulum { angle: f64, rate: f64 }
+///
+/// let rows: Vec<Row<Pendulum>> = vec![
+///     Row::parameter("length", Unit::METRE, 0.1..=10.0, 1.0, "Length of the rod"),
+///     Row::output("angle", Unit::RADIAN, 1.0, "Angle", |pendulum: &Pendulum| pendulum.angle).with_derivative("rate"),
+///     Row::output("rate", Unit::RADIAN_PER_SECOND, 1.0, "Angular velocity", |pendulum| pendulum.rate),
+/// ];
+/// assert_eq!(rows[1].variable.derivative.as_deref(), Some("rate"));
+/// ```
+#[derive(Debug)]
+pub struct Row<M> {
+    /// All but how it is read.
+    pub variable: Variable,
+    /// How it is read; `None` for parameters and inputs.
+    pub read: Option<Read<M>>,
+}
+
+impl<M> Row<M> {
+    /// A fixed real parameter with its allowed range and default, which is its nominal value too, or 1 if it is zero.
+    pub fn parameter(name: &str, unit: Unit, range: RangeInclusive<f64>, start: f64, description: &str) -> Self {
+        let nominal = if start == 0.0 { 1.0 } else { start.abs() };
+        let quantity = Quantity {
+            unit,
+            min: *range.start(),
+            max: *range.end(),
+            nominal,
+            start,
+        };
+        Self::make(name, description, Causality::Parameter, Kind::Real(quantity), None)
+    }
+
+    /// A fixed parameter that is a whole number of 64 bits.
+    pub fn long_parameter(name: &str, range: RangeInclusive<i64>, start: i64, description: &str) -> Self {
+        Self::make(
+            name,
+            description,
+            Causality::Parameter,
+            Kind::Long { range, start },
+            None,
+        )
+    }
+
+    /// A fixed parameter that takes one of `options`, each a name and a sentence; `start` is a number, the first being 1.
+    pub fn enumeration_parameter(
+        name: &str,
+        type_name: &'static str,
+        options: &'static [(&'static str, &'static str)],
+        start: i64,
+        description: &str,
+    ) -> Self {
+        let kind = Kind::Enumeration {
+            type_name,
+            options,
+            start,
+        };
+        Self::make(name, description, Causality::Parameter, kind, None)
+    }
+
+    /// A continuous input that starts at zero and may take any finite value.
+    pub fn input(name: &str, unit: Unit, nominal: f64, description: &str) -> Self {
+        Self::make(name, description, Causality::Input, unbounded(unit, nominal), None)
+    }
+
+    /// A continuous output.
+    pub fn output(
+        name: impl Into<String>,
+        unit: Unit,
+        nominal: f64,
+        description: impl Into<String>,
+        read: fn(&M) -> f64,
+    ) -> Self {
+        let kind = unbounded(unit, nominal);
+        Self::make(name, description, Causality::Output, kind, Some(Read::Real(read)))
+    }
+
+    /// A real that is known when initialisation ends and stays.
+    pub fn calculated(
+        name: impl Into<String>,
+        unit: Unit,
+        nominal: f64,
+        description: impl Into<String>,
+        read: fn(&M) -> f64,
+    ) -> Self {
+        let kind = unbounded(unit, nominal);
+        Self::make(
+            name,
+            description,
+            Causality::CalculatedParameter,
+            kind,
+            Some(Read::Real(read)),
+        )
+    }
+
+    /// A whole number among the outputs, such as the contacts that are closed.
+    pub fn count_output(name: impl Into<String>, description: impl Into<String>, read: fn(&M) -> i64) -> Self {
+        let kind = Kind::Integer {
+            range: 0..=i64::from(i32::MAX),
+            start: 0,
+        };
+        Self::make(name, description, Causality::Output, kind, Some(Read::Integer(read)))
+    }
+
+    /// One of `options` among the outputs, each a name and a sentence; the first has the number 1.
+    pub fn enumeration_output(
+        name: impl Into<String>,
+        type_name: &'static str,
+        options: &'static [(&'static str, &'static str)],
+        description: impl Into<String>,
+        read: fn(&M) -> i64,
+    ) -> Self {
+        let kind = Kind::Enumeration {
+            type_name,
+            options,
+            start: 1,
+        };
+        Self::make(name, description, Causality::Output, kind, Some(Read::Integer(read)))
+    }
+
+    /// Continuous outputs `name[1]` to `name[count]`; `read` gets the element counted from 0. The description of element 3 is
+    /// `what` with `{}` replaced by 3.
+    pub fn outputs(
+        name: &str,
+        count: u32,
+        unit: Unit,
+        nominal: f64,
+        what: &str,
+        read: fn(&M, usize) -> f64,
+    ) -> impl Iterator<Item = Self> {
+        (0..count).map(move |index| {
+            let number = (index + 1).to_string();
+            let kind = unbounded(unit, nominal);
+            let read = Some(Read::RealElement(read, index as usize));
+            let name = format!("{name}[{number}]");
+            Self::make(name, what.replace("{}", &number), Causality::Output, kind, read)
+        })
+    }
+
+    /// The same row, read as element `index` (counted from 0) of an array of reals: for names with an index inside.
+    #[must_use]
+    pub fn read_element(mut self, read: fn(&M, usize) -> f64, index: usize) -> Self {
+        self.read = Some(Read::RealElement(read, index));
+        self
+    }
+
+    /// The same row, read as element `index` (counted from 0) of an array of whole numbers.
+    #[must_use]
+    pub fn read_integer_element(mut self, read: fn(&M, usize) -> i64, index: usize) -> Self {
+        self.read = Some(Read::IntegerElement(read, index));
+        self
+    }
+
+    /// The same output as a calculated parameter: known when initialisation ends, constant from then on.
+    #[must_use]
+    pub fn constant(mut self) -> Self {
+        self.variable.causality = Causality::CalculatedParameter;
+        self
+    }
+
+    /// The same real with another nominal value: for parameters that start at zero, of which one cannot be read off.
+    #[must_use]
+    pub fn with_nominal(mut self, nominal: f64) -> Self {
+        if let Kind::Real(quantity) = &mut self.variable.kind {
+            quantity.nominal = nominal;
+        }
+        self
+    }
+
+    /// The same computed variable, which depends on no more than these parameters, inputs and [`TIME`](crate::TIME) while the
+    /// component is initialised. Names that the model does not have are left out.
+    #[must_use]
+    pub fn depending_on(mut self, names: &Arc<[&'static str]>) -> Self {
+        self.variable.dependencies = Some(Arc::clone(names));
+        self
+    }
+
+    /// The same variable with the name of the variable that is its time derivative.
+    #[must_use]
+    pub fn with_derivative(mut self, name: impl Into<String>) -> Self {
+        self.variable.derivative = Some(name.into());
+        self
+    }
+
+    /// The same variable as a member of a terminal.
+    #[must_use]
+    pub fn in_terminal(mut self, terminal: &'static str, member: &'static str) -> Self {
+        self.variable.terminal = Some(TerminalMember { terminal, member });
+        self
+    }
+
+    fn make(
+        name: impl Into<String>,
+        description: impl Into<String>,
+        causality: Causality,
+        kind: Kind,
+        read: Option<Read<M>>,
+    ) -> Self {
+        let variable = Variable {
+            name: name.into(),
+            description: description.into(),
+            causality,
+            kind,
+            dependencies: None,
+            derivative: None,
+            terminal: None,
+        };
+        Self { variable, read }
+    }
+}
+
+fn unbounded(unit: Unit, nominal: f64) -> Kind {
+    Kind::Real(Quantity {
+        unit,
+        min: f64::NEG_INFINITY,
+        max: f64::INFINITY,
+        nominal,
+        start: 0.0,
+    })
+}

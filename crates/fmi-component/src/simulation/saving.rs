@@ -1,0 +1,126 @@
+//! Saved states of a simulation: bit for bit, as values or as bytes.
+
+use serde::{Deserialize, Serialize};
+
+use super::Simulation;
+use crate::error::{Error, Result};
+use crate::model::Model;
+use crate::saved_bytes;
+use crate::times::is_simulated;
+use crate::variable::{Value, fingerprint};
+
+/// All that a simulation is at one time: parameters and inputs, times, and the state of the model if it has started.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Saved<State> {
+    start: f64,
+    time: f64,
+    values: Vec<Value>,
+    state: Option<State>,
+}
+
+impl<State> Saved<State> {
+    /// Whether the simulation had started.
+    pub fn is_started(&self) -> bool {
+        self.state.is_some()
+    }
+}
+
+impl<M: Model> Simulation<M> {
+    /// Everything that a step, a set or a start can change.
+    pub fn save(&self) -> Saved<M::State> {
+        Saved {
+            start: self.start,
+            time: self.time,
+            values: self.values.as_slice().to_vec(),
+            state: self.model.as_ref().map(M::state),
+        }
+    }
+
+    /// Goes back (or on) to a saved state; parameters that were others then come back too.
+    ///
+    /// # Errors
+    /// The state does not fit this model or its structure, or is damaged. The simulation is then as before.
+    pub fn restore(&mut self, saved: &Saved<M::State>) -> Result<()> {
+        self.check(saved)?;
+        let same = self.start == saved.start && self.values.same_parameters(&saved.values);
+        match (&saved.state, self.model.as_mut().filter(|_| same)) {
+            (None, _) => self.model = None,
+            (Some(state), Some(model)) => model.restore(state)?,
+            (Some(state), None) => {
+                let mut values = self.values.clone();
+                values.put_back(&saved.values)?;
+                let mut model = self.build(saved.start, &values)?;
+                model.restore(state)?;
+                self.model = Some(model);
+            }
+        }
+        self.values.put_back(&saved.values)?;
+        (self.start, self.time) = (saved.start, saved.time);
+        Ok(())
+    }
+
+    /// As [`Simulation::restore`], with the model built anew: for one that a panic may have left in pieces.
+    ///
+    /// # Errors
+    /// As [`Simulation::restore`].
+    pub fn restore_anew(&mut self, saved: &Saved<M::State>) -> Result<()> {
+        let pieces = self.model.take();
+        self.restore(saved).inspect_err(|_| self.model = pieces)
+    }
+
+    /// Says whether times and values of a saved state can be those of this simulation.
+    ///
+    /// # Errors
+    /// They cannot.
+    pub fn check(&self, saved: &Saved<M::State>) -> Result<()> {
+        self.values.check_all(&saved.values)?;
+        let Saved { start, time, state, .. } = saved;
+        if !(is_simulated(*start) && is_simulated(*time) && time >= start) {
+            return Err(Error::state(
+                format!("it is at {time} s and started at {start} s"),
+                "Pass a state that saving gave.",
+            ));
+        }
+        match state.as_ref().map(M::time_of).filter(|reached| reached != time) {
+            None => Ok(()),
+            Some(reached) => Err(Error::state(
+                format!("its time is {time} s and its model's {reached} s"),
+                "Pass a state that saving gave.",
+            )),
+        }
+    }
+
+    /// The present state as bytes without pointers, for a file or another process: see [`saved_bytes`].
+    ///
+    /// # Errors
+    /// The state cannot be written: a defect.
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
+        saved_bytes::write(&self.save(), &self.owner())
+    }
+
+    /// Goes to the state in bytes that a simulation of the same model, structure and version wrote.
+    ///
+    /// # Errors
+    /// The bytes are damaged or foreign, or hold values out of range. The simulation is then as before.
+    pub fn restore_bytes(&mut self, bytes: &[u8]) -> Result<()> {
+        self.restore(&saved_bytes::read(bytes, &self.owner())?)
+    }
+
+    /// As [`Simulation::restore_bytes`], with the model built anew: for one that a panic may have left in pieces.
+    ///
+    /// # Errors
+    /// As [`Simulation::restore_bytes`].
+    pub fn restore_bytes_anew(&mut self, bytes: &[u8]) -> Result<()> {
+        self.restore_anew(&saved_bytes::read(bytes, &self.owner())?)
+    }
+
+    /// For whom bytes are written.
+    fn owner(&self) -> String {
+        let info = M::info();
+        let table = fingerprint(info.version, self.variables());
+        let structure = self.structure.iter().map(|(name, value)| format!(":{name}={value}"));
+        let variant = info.variant.iter().map(|(_, value)| format!(":{value}"));
+        let choices: String = variant.chain(structure).collect();
+        format!("simulation:{}{choices}:{table:016x}", info.name)
+    }
+}

@@ -1,0 +1,45 @@
+//! Which times are simulated.
+
+use crate::error::{Error, Result};
+
+/// Farthest time from zero \[s\], three hundred years. Doubles are 2e-6 s apart there; farther away the phase of an
+/// oscillation loses its meaning, and the sine of an infinite phase is not a number.
+pub const FARTHEST_TIME: f64 = 1e10;
+
+/// Whether models can be at `time` \[s\].
+pub fn is_simulated(time: f64) -> bool {
+    time.abs() <= FARTHEST_TIME
+}
+
+/// Refuses a time \[s\] that is no number or too far from zero.
+///
+/// # Errors
+/// It is; `name` says which time.
+pub fn check_time(name: &str, time: f64) -> Result<()> {
+    if is_simulated(time) {
+        return Ok(());
+    }
+    Err(Error::parameter(
+        name,
+        format!("{time} s"),
+        format!("from -{FARTHEST_TIME:e} to {FARTHEST_TIME:e} s, where times are 2e-6 s apart in double precision"),
+        "Count the time from nearer to the run.",
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_that_are_none_are_told() {
+        assert!([0.0, -1e10, 1e10].into_iter().all(is_simulated));
+        assert!(
+            ![f64::NAN, f64::INFINITY, -1.1e10, f64::MAX]
+                .into_iter()
+                .any(is_simulated)
+        );
+        let told = check_time("start time", 1e300).map_err(|error| error.to_string());
+        assert!(told.is_err_and(|text| text.starts_with("start time = ") && text.contains("1e10 s")));
+    }
+}

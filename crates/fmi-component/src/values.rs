@@ -1,0 +1,129 @@
+//! The values of parameters and inputs. What a model computes is read from the model.
+
+use std::sync::Arc;
+
+use crate::error::{Error, Result};
+use crate::table::Table;
+use crate::variable::{Causality, Value, Variable};
+
+/// The present value of every parameter and input of a [`Table`].
+#[derive(Debug, Clone)]
+pub struct Values {
+    table: Arc<Table>,
+    values: Vec<Value>,
+}
+
+impl PartialEq for Values {
+    fn eq(&self, other: &Self) -> bool {
+        self.values == other.values
+    }
+}
+
+impl Values {
+    /// Start values.
+    pub fn new(table: Arc<Table>) -> Self {
+        let values = table.settable().iter().map(Variable::start).collect();
+        Self { table, values }
+    }
+
+    /// The variables that these values belong to.
+    pub fn table(&self) -> &Arc<Table> {
+        &self.table
+    }
+
+    /// All values in the order of the parameters and inputs.
+    pub fn as_slice(&self) -> &[Value] {
+        &self.values
+    }
+
+    /// Value of the parameter or input at `position`.
+    pub fn get(&self, position: usize) -> Option<Value> {
+        self.values.get(position).copied()
+    }
+
+    /// Stores a value at `position` after checking its type and range.
+    ///
+    /// # Errors
+    /// No parameter or input there, another type, or out of range.
+    pub fn set(&mut self, position: usize, value: Value) -> Result<()> {
+        let Some(variable) = self.table.settable().get(position) else {
+            return Err(match self.table.variables().get(position) {
+                Some(computed) => Error::call(
+                    format!("{} is computed by the model", computed.name),
+                    "Set a parameter or an input instead.",
+                ),
+                None => Error::parameter(
+                    "position of a variable",
+                    position,
+                    format!("0 to {}", self.table.variables().len().saturating_sub(1)),
+                    "Take positions from this same model.",
+                ),
+            });
+        };
+        variable.check(value)?;
+        self.values[position] = value;
+        Ok(())
+    }
+
+    /// Puts back all values as [`Values::as_slice`] gave them.
+    ///
+    /// # Errors
+    /// Another number of values, another type, or out of range. Nothing is stored then.
+    pub fn put_back(&mut self, values: &[Value]) -> Result<()> {
+        self.check_all(values)?;
+        self.values.copy_from_slice(values);
+        Ok(())
+    }
+
+    /// Says whether [`Values::put_back`] would accept `values`.
+    ///
+    /// # Errors
+    /// As [`Values::put_back`].
+    pub fn check_all(&self, values: &[Value]) -> Result<()> {
+        if values.len() != self.values.len() {
+            return Err(Error::state(
+                format!("it holds {} values, this model has {}", values.len(), self.values.len()),
+                "Save and restore with the same model.",
+            ));
+        }
+        let pairs = self.table.settable().iter().zip(values);
+        pairs
+            .into_iter()
+            .try_for_each(|(variable, value)| variable.check(*value))
+    }
+
+    /// Whether all parameters are the same, bit by bit, since a model may tell 0.0 from -0.0.
+    pub fn same_parameters(&self, others: &[Value]) -> bool {
+        let bits = |value: &Value| match value {
+            Value::Real(real) => real.to_bits(),
+            Value::Integer(integer) => *integer as u64,
+        };
+        let pairs = self.values.iter().zip(others);
+        self.table
+            .settable()
+            .iter()
+            .zip(pairs)
+            .filter(|(variable, _)| variable.causality == Causality::Parameter)
+            .all(|(_, (one, other))| bits(one) == bits(other))
+    }
+
+    /// The real called `name`. A name that the model does not list is a defect of the model and panics.
+    pub fn real(&self, name: &str) -> f64 {
+        match self.by_name(name) {
+            Some(Value::Real(real)) => real,
+            other => panic!("the model has no real parameter or input {name} (found {other:?})"),
+        }
+    }
+
+    /// The whole number called `name`. A name that the model does not list is a defect of the model and panics.
+    pub fn integer(&self, name: &str) -> i64 {
+        match self.by_name(name) {
+            Some(Value::Integer(integer)) => integer,
+            other => panic!("the model has no integer parameter or input {name} (found {other:?})"),
+        }
+    }
+
+    fn by_name(&self, name: &str) -> Option<Value> {
+        self.table.position(name).and_then(|position| self.get(position))
+    }
+}

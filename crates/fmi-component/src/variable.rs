@@ -1,0 +1,235 @@
+//! What is known of a variable: the single source of the XML, of get and set, of range checks and of the documentation page.
+
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::unit::Unit;
+
+/// Name of the independent variable of every component.
+pub const TIME: &str = "time";
+
+/// Who sets a variable, and when (FMI 2.0 section 2.2.7, FMI 3.0 section 2.4.7.4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Causality {
+    /// Set by the user before initialisation ends, frozen from then on.
+    Parameter,
+    /// Computed from the parameters when initialisation ends, constant from then on.
+    CalculatedParameter,
+    /// Set by the importer at every communication point.
+    Input,
+    /// Computed by the model.
+    Output,
+}
+
+impl Causality {
+    /// Whether the user or the importer gives the value: the model computes it otherwise.
+    pub const fn is_settable(self) -> bool {
+        matches!(self, Self::Parameter | Self::Input)
+    }
+}
+
+/// What a variable holds.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    /// A continuous quantity in SI units.
+    Real(Quantity),
+    /// A whole number that fits 32 bits, such as a count of contacts.
+    Integer {
+        /// Allowed values.
+        range: RangeInclusive<i64>,
+        /// Start value.
+        start: i64,
+    },
+    /// A whole number of 64 bits, such as a seed. FMI 2.0 has only 32 bits and narrows the range.
+    Long {
+        /// Allowed values.
+        range: RangeInclusive<i64>,
+        /// Start value.
+        start: i64,
+    },
+    /// One of a few named options, held as its number: 1 is the first.
+    Enumeration {
+        /// Name of the type, such as `base_model`; variables of one type share it and the options.
+        type_name: &'static str,
+        /// Names of the options with one sentence each. No two names are equal.
+        options: &'static [(&'static str, &'static str)],
+        /// Start value.
+        start: i64,
+    },
+}
+
+/// Unit, range and start of a real variable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// Unit.
+    pub unit: Unit,
+    /// Smallest allowed value, inclusive; `f64::NEG_INFINITY` for none.
+    pub min: f64,
+    /// Largest allowed value, inclusive; `f64::INFINITY` for none.
+    pub max: f64,
+    /// Size that a typical value has, for importers that scale tolerances.
+    pub nominal: f64,
+    /// Start value of parameters and inputs. Outputs ignore it: theirs is computed.
+    pub start: f64,
+}
+
+/// A variable's place in a terminal: the connector that FMI 3.0 describes in `terminalsAndIcons.xml`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TerminalMember {
+    /// Name of the terminal, such as `shaft`.
+    pub terminal: &'static str,
+    /// Name of the variable inside of it, such as `displacement`.
+    pub member: &'static str,
+}
+
+/// All that is known of a variable but how its value is read: see [`Row`](crate::Row).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variable {
+    /// Structured name, such as `spring.stiffness` or `body.angle[3]` (counted from 1).
+    pub name: String,
+    /// One sentence for the model description and the documentation page.
+    pub description: String,
+    /// Who sets it, and when.
+    pub causality: Causality,
+    /// What it holds.
+    pub kind: Kind,
+    /// Parameters, inputs and [`TIME`] that a computed variable depends on while the component is initialised. `None` says that
+    /// it may depend on all of them.
+    pub dependencies: Option<Arc<[&'static str]>>,
+    /// Name of the variable of the same causality that is the time derivative of this one.
+    pub derivative: Option<String>,
+    /// Terminal that it belongs to.
+    pub terminal: Option<TerminalMember>,
+}
+
+impl Variable {
+    /// Start value as the table stores it.
+    pub fn start(&self) -> Value {
+        match &self.kind {
+            Kind::Real(quantity) => Value::Real(quantity.start),
+            Kind::Integer { start, .. } | Kind::Long { start, .. } | Kind::Enumeration { start, .. } => {
+                Value::Integer(*start)
+            }
+        }
+    }
+
+    /// Value that `text` stands for; of an enumeration the name of an option or its number. The range is not checked.
+    ///
+    /// # Errors
+    /// Text of another kind, with what is expected.
+    pub fn parse(&self, text: &str) -> Result<Value> {
+        let value = match self.kind {
+            Kind::Real(_) => text.parse().map(Value::Real).ok(),
+            Kind::Integer { .. } | Kind::Long { .. } => text.parse().map(Value::Integer).ok(),
+            Kind::Enumeration { options, .. } => {
+                let by_name = (1..).zip(options).find(|(_, (name, _))| *name == text);
+                let number = by_name.map(|(number, _)| number).or_else(|| text.parse().ok());
+                number.map(Value::Integer)
+            }
+        };
+        value.ok_or_else(|| {
+            let digits = "Write it with digits, such as 2 or 1.5e-3.";
+            let (allowed, remedy) = match self.kind {
+                Kind::Real(_) => ("a number".into(), digits),
+                Kind::Integer { .. } | Kind::Long { .. } => ("a whole number of 64 bits".into(), digits),
+                Kind::Enumeration { options, .. } => {
+                    let names: Vec<&str> = options.iter().map(|(name, _)| *name).collect();
+                    (format!("one of: {}", names.join(", ")), "Give an option by its name.")
+                }
+            };
+            Error::parameter(&self.name, text, allowed, remedy)
+        })
+    }
+
+    /// Says whether `value` may be given to this variable, and if not, why and what to do.
+    ///
+    /// # Errors
+    /// Another type, not finite, or out of range.
+    pub fn check(&self, value: Value) -> Result<()> {
+        let fits = match (&self.kind, value) {
+            (Kind::Real(quantity), Value::Real(real)) => {
+                real.is_finite() && (quantity.min..=quantity.max).contains(&real)
+            }
+            (Kind::Integer { range, .. } | Kind::Long { range, .. }, Value::Integer(integer)) => {
+                range.contains(&integer)
+            }
+            (Kind::Enumeration { options, .. }, Value::Integer(integer)) => {
+                (1..=options.len() as i64).contains(&integer)
+            }
+            (Kind::Real(_), Value::Integer(_)) | (_, Value::Real(_)) => false,
+        };
+        if fits { Ok(()) } else { Err(self.refusal(value)) }
+    }
+
+    #[cold]
+    fn refusal(&self, value: Value) -> Error {
+        let in_range = "Give a value in this range.";
+        let (value, allowed, remedy) = match (&self.kind, value) {
+            (Kind::Real(quantity), Value::Real(real)) => {
+                let allowed = format!("a finite number from {} to {}", quantity.min, quantity.max);
+                (quantity.unit.format(real), allowed, in_range)
+            }
+            (Kind::Integer { range, .. } | Kind::Long { range, .. }, Value::Integer(integer)) => {
+                let allowed = format!("a whole number from {} to {}", range.start(), range.end());
+                (integer.to_string(), allowed, in_range)
+            }
+            (Kind::Enumeration { options, .. }, Value::Integer(integer)) => {
+                let options = (1..)
+                    .zip(*options)
+                    .map(|(number, (name, _))| format!("{number} {name}"));
+                let allowed = format!("one of: {}", options.collect::<Vec<_>>().join(", "));
+                (integer.to_string(), allowed, "Give the number of an option.")
+            }
+            (Kind::Real(_), Value::Integer(integer)) => (
+                integer.to_string(),
+                "a real number".into(),
+                "Set it as a real variable.",
+            ),
+            (_, Value::Real(real)) => (
+                real.to_string(),
+                "a whole number".into(),
+                "Set it as an integer variable.",
+            ),
+        };
+        Error::parameter(&self.name, value, allowed, remedy)
+    }
+}
+
+/// Tells a table of variables from any other: FNV-1a, 64 bits, over the model's version, names, causalities, types, units, ranges
+/// and start values.
+pub fn fingerprint<'a>(version: &str, variables: impl IntoIterator<Item = &'a Variable>) -> u64 {
+    let mut text = String::from(version);
+    for variable in variables {
+        text.push_str(&format!(
+            "\n{} {:?} {:?}",
+            variable.name, variable.causality, variable.kind
+        ));
+    }
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+/// A value of a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Value {
+    /// Of a [`Kind::Real`].
+    Real(f64),
+    /// Of any other [`Kind`].
+    Integer(i64),
+}
+
+impl From<f64> for Value {
+    fn from(real: f64) -> Self {
+        Self::Real(real)
+    }
+}
+
+impl From<i64> for Value {
+    fn from(integer: i64) -> Self {
+        Self::Integer(integer)
+    }
+}

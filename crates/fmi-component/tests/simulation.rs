@@ -1,0 +1,229 @@
+//! A model in a Rust program: parameters in, inputs, steps, outputs by name, saved states; and what is refused with which words.
+#![allow(clippy::unwrap_used)]
+
+use fmi_component::{
+    DynSimulation, Error, Model, ModelType, Result, Row, Simulation, StructuralParameters, Table, Unit, Value, Variable,
+};
+use oscillators::Oscillators;
+
+type Oscillation = Simulation<Oscillators>;
+
+fn told<T>(result: Result<T>) -> String {
+    match result {
+        Ok(_) => panic!("not refused"),
+        Err(error) => error.to_string(),
+    }
+}
+
+fn bodies(count: u32) -> Oscillation {
+    Simulation::new(&[("bodies", count)], &[]).unwrap()
+}
+
+#[test]
+fn refusals_name_variable_and_remedy() {
+    let start = |given: &[(&str, Value)]| Oscillation::new(&[("bodies", 5)], given);
+    assert!(told(start(&[("spring.glue", 1.0.into())])).contains("drive input has no variable spring.glue"));
+    assert!(told(start(&[("damper.damping", (-1.0).into())])).contains("damper.damping = -1"));
+    assert!(told(start(&[("seed", 7.0.into())])).contains("a whole number"));
+    assert!(told(start(&[("steps", 7.into())])).contains("computed by the model"));
+    assert!(told(Oscillation::new(&[("bodies", 0)], &[])).contains("number of bodies = 0"));
+    assert!(told(Oscillation::new(&[("bodies", 101)], &[])).contains("1 to 100"));
+    assert!(told(Oscillation::new(&[("wheels", 1)], &[])).contains("one of the model oscillators: bodies"));
+    assert!(told(bodies(5).set_at(100_000, 1.0)).contains("0 to 16"));
+    assert!(told(bodies(5).value(100_000)).contains("0 to 16"));
+}
+
+#[test]
+fn refused_calls_change_nothing() {
+    let mut row = bodies(5);
+    row.advance_to(0.5).unwrap();
+    let before = row.save();
+    assert!(told(row.set("body.mass", 0.2)).contains("frozen"));
+    assert!(told(row.set("frame.position", f64::NAN)).contains("frame.position"));
+    assert!(told(row.real("steps")).contains("Read it as an integer"));
+    assert!(told(row.integer("frame.reaction_force")).contains("Read it as a real"));
+    for end_time in [0.5, 0.0] {
+        assert!(told(row.advance_to(end_time)).contains("after 0.5 s"));
+    }
+    for end_time in [f64::NAN, f64::INFINITY, 1e300] {
+        assert!(told(row.advance_to(end_time)).contains("to 1e10 s"));
+    }
+    assert!(told(row.set_start_time(0.0)).contains("has started at 0 s"));
+    assert_eq!((row.save(), row.time()), (before, 0.5));
+    assert!(row.integer("steps").unwrap() == 500);
+}
+
+#[test]
+fn a_simulation_that_has_not_started_takes_parameters_and_computes_nothing() {
+    let structure = StructuralParameters::defaults(&Oscillators::info());
+    let mut row = Oscillation::prepare(structure);
+    row.set_start_time(2.0).unwrap();
+    row.set("body.mass", 0.4).unwrap();
+    assert_eq!((row.real("body.mass"), row.time()), (Ok(0.4), 2.0));
+    for refused in [told(row.integer("steps")), told(row.advance_to(3.0)), told(row.model())] {
+        assert!(refused.contains("has not started"), "{refused}");
+    }
+    row.start(row.start_time()).unwrap();
+    row.advance_to(2.5).unwrap();
+    row.stop();
+    assert_eq!((row.time(), row.is_started()), (2.0, false));
+    row.reset();
+    assert_eq!((row.time(), row.real("body.mass")), (0.0, Ok(0.1)));
+}
+
+#[test]
+fn a_simulation_is_its_model() {
+    let given = [("body.mass", 0.3.into()), ("seed", 3.into())];
+    let mut row = Oscillation::new(&[("bodies", 20)], &given).unwrap();
+    let mut model = Oscillators::new(row.structure(), 0.0, row.values()).unwrap();
+    for end_time in [0.1, 0.25] {
+        row.advance_to(end_time).unwrap();
+        model.advance_to(end_time, row.values()).unwrap();
+    }
+    assert!(row.model().unwrap().state() == model.state());
+    let rows = Oscillators::variables(row.structure());
+    let read: Vec<_> = rows
+        .iter()
+        .filter_map(|row| row.read)
+        .map(|read| read.value(&model))
+        .collect();
+    assert!(row.all_values().unwrap().ends_with(&read));
+}
+
+#[test]
+fn a_model_behind_a_pointer_gives_the_bits_of_its_type() {
+    const MODEL: ModelType = ModelType::of::<Oscillators>();
+    let structure = StructuralParameters::defaults(&(MODEL.info)());
+    let (mut typed, mut boxed) = (bodies(3), (MODEL.prepare)(structure));
+    boxed.start(0.0).unwrap();
+    typed.advance_to(0.1).unwrap();
+    boxed.advance_to(0.1).unwrap();
+    let saved = boxed.save();
+    assert_eq!(boxed.to_bytes().unwrap(), typed.to_bytes().unwrap());
+    boxed.advance_to(0.2).unwrap();
+    typed.advance_to(0.2).unwrap();
+    assert_eq!(
+        boxed.value(boxed.position("steps").unwrap()),
+        typed.integer("steps").map(Value::Integer)
+    );
+    let payload = boxed.saved_to_payload(&saved).unwrap();
+    boxed.restore(&boxed.saved_from_payload(&payload).unwrap()).unwrap();
+    assert_eq!(boxed.time(), 0.1);
+    for damaged in [&payload[..payload.len() - 1], &[payload.as_slice(), &[0]].concat()] {
+        assert!(told(boxed.saved_from_payload(damaged)).contains("damaged"));
+    }
+}
+
+/// The state as bytes with another time in it. `Saved` begins with start and time, each a double.
+fn moved(row: &Oscillation, time: f64) -> Result<fmi_component::DynSaved> {
+    let saved = DynSimulation::save(row);
+    let mut payload = row.saved_to_payload(&saved).unwrap();
+    payload[8..16].copy_from_slice(&time.to_le_bytes());
+    row.saved_from_payload(&payload)
+}
+
+#[test]
+fn a_refused_state_changes_nothing() {
+    let mut row = bodies(5);
+    row.advance_to(0.5).unwrap();
+    let before = row.save();
+    assert!(told(moved(&row, f64::NAN)).contains("NaN"));
+    for elsewhere in [0.0, 0.4, 0.6] {
+        let refusal = told(moved(&row, elsewhere));
+        assert!(
+            refusal.contains(&format!("its time is {elsewhere} s and its model's 0.5 s")),
+            "{refusal}"
+        );
+    }
+    assert!(moved(&row, 0.5).is_ok());
+    let larger = bodies(6);
+    assert!(told(row.restore(&larger.save())).contains("another number of bodies"));
+    let bytes = larger.to_bytes().unwrap();
+    let refusal = told(row.restore_bytes(&bytes));
+    assert!(
+        refusal.contains("bodies=6") && refusal.contains("bodies=5"),
+        "{refusal}"
+    );
+    let mut bytes = row.to_bytes().unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    assert!(told(row.restore_bytes(&bytes)).contains("checksum"));
+    assert_eq!(row.save(), before);
+}
+
+#[test]
+fn other_parameters_come_back_with_a_state() {
+    let given = [("body.mass", 0.2.into()), ("seed", 5.into())];
+    let mut one = Oscillation::new(&[("bodies", 20)], &given).unwrap();
+    one.advance_to(0.1).unwrap();
+    let mut other = bodies(20);
+    other.restore(&one.save()).unwrap();
+    for simulation in [&mut one, &mut other] {
+        simulation.advance_to(0.2).unwrap();
+    }
+    assert_eq!(one.save(), other.save());
+}
+
+#[test]
+fn the_limit_of_work_outlives_a_model_made_anew() {
+    let mut one = bodies(5);
+    let bytes = one.to_bytes().unwrap();
+    one.limit_work(3);
+    one.restore_bytes_anew(&bytes).unwrap();
+    assert!(told(one.advance_to(1.0)).contains("more than one call may do"));
+    assert_eq!(one.to_bytes().unwrap(), bytes);
+}
+
+fn variable(row: Row<()>) -> Variable {
+    row.variable
+}
+
+fn output(name: &str) -> Row<()> {
+    Row::output(name, Unit::ONE, 1.0, "", |()| 0.0)
+}
+
+#[test]
+#[should_panic(expected = "two variables are named x")]
+fn a_table_of_two_variables_of_one_name_panics() {
+    Table::new(["x", "x"].map(output).map(variable).into());
+}
+
+#[test]
+#[should_panic(expected = "comes after a variable that the model computes")]
+fn a_table_with_an_input_after_an_output_panics() {
+    Table::new([output("x"), Row::input("u", Unit::ONE, 1.0, "")].map(variable).into());
+}
+
+#[test]
+#[should_panic(expected = "v, the derivative of x, is no variable of the same causality")]
+fn a_table_with_a_derivative_of_another_causality_panics() {
+    let rate = Row::input("v", Unit::ONE, 1.0, "");
+    Table::new([rate, output("x").with_derivative("v")].map(variable).into());
+}
+
+#[test]
+fn a_table_knows_positions_and_derivatives() {
+    let table = Table::new([output("x").with_derivative("v"), output("v")].map(variable).into());
+    assert_eq!((table.position("v"), table.position("w")), (Some(1), None));
+    assert_eq!((table.derivative(0), table.derivative(1)), (Some(1), None));
+    let has = |causality| table.has_derivatives(causality);
+    assert!(has(fmi_component::Causality::Output) && !has(fmi_component::Causality::Input));
+}
+
+#[test]
+fn texts_are_parsed_by_kind() {
+    let rows = Oscillators::variables(&StructuralParameters::defaults(&Oscillators::info()));
+    let parse = |name: &str, text: &str| {
+        let row = rows.iter().find(|row| row.variable.name == name).unwrap();
+        row.variable.parse(text).map_err(|error: Error| error.to_string())
+    };
+    assert_eq!(parse("body.mass", "1e-1"), Ok(Value::Real(0.1)));
+    assert_eq!(parse("start.pattern", "at_rest"), Ok(Value::Integer(2)));
+    assert!(parse("seed", "1.5").unwrap_err().contains("a whole number"));
+    assert!(parse("body.mass", "1,5").unwrap_err().contains("body.mass = 1,5"));
+    assert!(
+        parse("start.pattern", "fast")
+            .unwrap_err()
+            .contains("one of: random, at_rest")
+    );
+}

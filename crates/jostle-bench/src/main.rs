@@ -1,0 +1,43 @@
+//! Measures jostle, for those who develop it or doubt it. Not shipped.
+//!
+//! Exit codes: 0 done; 2 an argument is wrong and nothing was run; 1 a run or a file failed on the way.
+
+mod report;
+mod stability;
+mod text;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use jostle::Error;
+
+/// Error against run time, and stability where it is hard.
+#[derive(Parser)]
+#[command(name = "jostle-bench", version, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Report(report::Report),
+    Stability(stability::Stability),
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Report(report) => report.execute(),
+        Command::Stability(stability) => stability.execute(),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("jostle-bench: {error:#}");
+            match error.downcast_ref() {
+                Some(Error::Parameter { .. }) => ExitCode::from(2),
+                _ => ExitCode::from(1),
+            }
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! The CSV files of a report.
+
+use std::path::Path;
+
+use anyhow::Result;
+
+use super::Measured;
+use super::case::Case;
+use crate::text::{self, write_csv as write};
+
+/// One row for each quantity of each point. A point without a number has its reason in the last column.
+pub fn write_points(path: &Path, case: &Case, measured: &[Measured]) -> Result<()> {
+    let header = [
+        "case",
+        "quantity",
+        "method",
+        "setting",
+        "error",
+        "error_bar",
+        "cpu_seconds",
+        "evaluations",
+        "trouble",
+    ];
+    let rows = measured.iter().flat_map(|point| {
+        case.quantities.iter().enumerate().map(move |(index, (quantity, _))| {
+            let (numbers, trouble) = match &point.outcome {
+                Ok((done, seconds)) => {
+                    let (error, bar) = done.errors[index];
+                    ([error, bar, *seconds, done.evaluations].map(short), String::new())
+                }
+                Err(trouble) => (<[String; 4]>::default(), trouble.clone()),
+            };
+            let [error, bar, seconds, evaluations] = numbers;
+            let words = [case.name, quantity, point.method].map(String::from);
+            let [case, quantity, method] = words;
+            let setting = short(point.setting);
+            [
+                case,
+                quantity,
+                method,
+                setting,
+                error,
+                bar,
+                seconds,
+                evaluations,
+                trouble,
+            ]
+        })
+    });
+    write(path, std::iter::once(header.map(String::from)).chain(rows))
+}
+
+/// Five digits: more would be noise.
+fn short(number: f64) -> String {
+    let rounded = format!("{number:.4e}").parse().unwrap_or(number);
+    text::number(rounded)
+}
+
+/// `cases.csv`: what the words in the points mean.
+pub fn write_cases(path: &Path, cases: &[Case]) -> Result<()> {
+    let header = ["case", "quantity", "error", "setting", "reference", "problem"].map(String::from);
+    let rows = cases.iter().flat_map(|case| {
+        case.quantities.iter().map(|(quantity, error)| {
+            [
+                case.name.into(),
+                (*quantity).into(),
+                (*error).into(),
+                case.setting.into(),
+                case.reference.into(),
+                case.problem.clone(),
+            ]
+        })
+    });
+    write(path, std::iter::once(header).chain(rows))
+}
+
+/// `machine.csv`: where the CPU times come from.
+pub fn write_machine(path: &Path, rounds: u32) -> Result<()> {
+    let information = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let mut models = information.lines().filter(|line| line.starts_with("model name"));
+    let model = models
+        .next()
+        .and_then(|line| line.split_once(": "))
+        .map_or("unknown", |(_, model)| model);
+    let cores = std::thread::available_parallelism().map_or(0, usize::from);
+    let build = if cfg!(debug_assertions) { "debug" } else { "optimised" };
+    let target = format!(
+        "{}-{}, {build}, any processor of that kind (no target-cpu)",
+        std::env::consts::ARCH,
+        std::env::consts::OS
+    );
+    let rows = [
+        ["name".into(), "value".into()],
+        ["version".into(), env!("CARGO_PKG_VERSION").into()],
+        ["processor".into(), model.to_string()],
+        ["cores".into(), cores.to_string()],
+        ["target".into(), target],
+        ["rounds".into(), rounds.to_string()],
+    ];
+    write(path, rows)
+}

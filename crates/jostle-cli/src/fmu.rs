@@ -1,0 +1,124 @@
+//! `jostle fmu`: writes a scene as an FMU.
+
+use std::path::PathBuf;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use clap::{Args, ValueEnum};
+use fmi_bundle::{Component, Notices, Version, find_library, nominal_amplitude};
+use jostle::Error;
+use jostle::scene::{Kind, Unit, Variable};
+
+use crate::failure::Failure;
+use crate::icon;
+use crate::selection::Selection;
+
+/// The last second of the year 9999.
+const LATEST_DATE: u64 = 253_402_300_799;
+
+/// Write a scene as an FMU.
+///
+/// The FMU holds the library, the model description, a documentation page, an icon and the licences. What drives the
+/// scene and how many disks it has is decided here, since both change its list of variables.
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  jostle fmu packing --fmi 3 --disks 60 --out packing.fmu")]
+pub struct Fmu {
+    #[command(flatten)]
+    selection: Selection,
+    /// Version of the standard.
+    #[arg(long, value_enum, default_value = "3")]
+    fmi: Standard,
+    /// What moves the base, such as input (the importer) or sine. Without it the engine's first: input where it has one.
+    #[arg(long)]
+    drive: Option<String>,
+    /// One array variable instead of scalars with an index, such as disk.angle for disk.angle[1] and so on. FMI 3.0 only,
+    /// and not every importer reads arrays; for large counts.
+    #[arg(long)]
+    arrays: bool,
+    /// File to write.
+    #[arg(long, value_name = "FILE.fmu")]
+    out: PathBuf,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Standard {
+    /// FMI 2.0, co-simulation.
+    #[value(name = "2")]
+    Two,
+    /// FMI 3.0, co-simulation.
+    #[value(name = "3")]
+    Three,
+}
+
+impl Fmu {
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// An unknown scene, engine or drive, a wrong disk count, no library to put in, no place to write to.
+    pub fn execute(self) -> Result<(), Failure> {
+        let selected = self.selection.find(self.drive.as_deref())?;
+        let structure: Vec<_> = selected.structure.iter().collect();
+        let mut component = Component::new(&selected.model, &structure)?;
+        let version = match self.fmi {
+            Standard::Two => Version::Two,
+            Standard::Three => Version::Three,
+        };
+        component.arrays = self.arrays;
+        component.date = Some(date()?);
+        component.notices = notices();
+        component.icon = Some(icon::png()?);
+        component.replay_command = Some("jostle replay FILE.fmu".into());
+        component.amplitude = reference_amplitude;
+        let program = std::env::current_exe().map_err(|error| Failure::file("this program".as_ref(), error))?;
+        // Beside the program; tests and examples run one folder below the libraries.
+        let folders: Vec<_> = program.ancestors().skip(1).take(2).collect();
+        let library = find_library(component.info().identifier, &folders)?;
+        Ok(fmi_bundle::write(&component, version, &library, &self.out)?)
+    }
+}
+
+/// Licence of the FMUs and notices of what their libraries hold.
+fn notices() -> Notices {
+    const MIT: &str = include_str!("../../../LICENSE-MIT");
+    const APACHE: &str = include_str!("../../../LICENSE-APACHE");
+    /// Written by `python -m tools notices`.
+    const THIRD_PARTY: &str = include_str!("../../../LICENSE-THIRD-PARTY.txt");
+    let copyright = MIT
+        .lines()
+        .find(|line| line.starts_with("Copyright"))
+        .unwrap_or_default();
+    let files = [
+        ("LICENSE-MIT.txt", MIT),
+        ("LICENSE-APACHE.txt", APACHE),
+        ("LICENSE-THIRD-PARTY.txt", THIRD_PARTY),
+    ];
+    Notices {
+        license: env!("CARGO_PKG_LICENSE").into(),
+        copyright: copyright.into(),
+        files: files.map(|(name, text)| (name.into(), text.into())).into(),
+    }
+}
+
+/// Amplitude of an input in the reference trajectory: a base is shaken at twice gravity, so that grains leave it.
+fn reference_amplitude(input: &Variable, omega: f64) -> f64 {
+    const ACCELERATION: f64 = 20.0;
+    match &input.kind {
+        Kind::Real(quantity) if quantity.unit == Unit::METRE => ACCELERATION / omega.powi(2),
+        _ => nominal_amplitude(input, omega),
+    }
+}
+
+/// Now, or what SOURCE_DATE_EPOCH says (seconds since 1970), for FMUs of the same bytes: as the schema's dateTime.
+fn date() -> Result<String, Failure> {
+    let time = match std::env::var("SOURCE_DATE_EPOCH") {
+        Err(_) => SystemTime::now(),
+        Ok(given) => {
+            let seconds = given.parse().ok().filter(|seconds| *seconds <= LATEST_DATE);
+            let seconds = seconds.ok_or_else(|| {
+                let allowed = format!("whole seconds since 1970, up to {LATEST_DATE}");
+                Error::parameter("SOURCE_DATE_EPOCH", &given, allowed, "Correct or unset it.")
+            })?;
+            UNIX_EPOCH + Duration::from_secs(seconds)
+        }
+    };
+    Ok(humantime::format_rfc3339_seconds(time).to_string())
+}

@@ -1,0 +1,54 @@
+//! `jostle replay`: runs the library in an FMU against the reference trajectory in it.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use fmi_bundle::{TOLERANCE, replay};
+use jostle::Error;
+
+use crate::failure::Failure;
+
+/// Check that an FMU computes here what it computed where it was made.
+///
+/// Runs the library in the FMU along the reference trajectory beside it and compares every output. On the machine on
+/// which it was made every bit is equal. Another processor or C library may round sines and exponentials in another way;
+/// then differences up to a millionth of a variable's size pass, unless --exact is given.
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  jostle replay packing.fmu")]
+pub struct Replay {
+    /// FMU to run. Its library is run with your rights: replay only what you trust.
+    #[arg(value_name = "FILE.fmu")]
+    fmu: PathBuf,
+    /// Ask for every bit.
+    #[arg(long)]
+    exact: bool,
+}
+
+impl Replay {
+    /// Runs and compares.
+    ///
+    /// # Errors
+    /// The file is no FMU of jostle's, its library does not run here, or the outputs differ.
+    pub fn execute(self) -> Result<(), Failure> {
+        let report = replay(&self.fmu)?;
+        println!(
+            "{}: {} values at {} times, {} differ in some bit",
+            self.fmu.display(),
+            report.values,
+            report.rows,
+            report.differing
+        );
+        let Some((name, time)) = &report.place else {
+            return Ok(());
+        };
+        let largest = report.largest;
+        let what = format!("{name} differs by {largest:e} of its size at t = {time} s");
+        if report.passes() && !self.exact {
+            println!("{what}, within the {TOLERANCE:e} that another rounding of sines and exponentials may make");
+            return Ok(());
+        }
+        let allowed = if self.exact { 0.0 } else { TOLERANCE };
+        let remedy = "Is it the FMU as it was made, on a processor that rounds as IEEE 754 says?";
+        Err(Error::file(&self.fmu, format!("{what}; allowed is {allowed:e}"), remedy).into())
+    }
+}

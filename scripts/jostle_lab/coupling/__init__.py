@@ -1,0 +1,1 @@
+"""Masters that advance the loudspeaker and the grains together, and their comparison."""

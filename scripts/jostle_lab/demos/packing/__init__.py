@@ -1,0 +1,1 @@
+"""Packings shaken with decreasing amplitude: pictures and a page of numbers."""

@@ -1,0 +1,225 @@
+"""A results folder in, four pictures out. Reads the CSV files only, so that pictures can be drawn again."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+from numpy.typing import NDArray
+
+from jostle_lab.plots.style import SENSE, WIDTH, house_style
+from jostle_lab.protocol.results import Results
+from jostle_lab.sensors.spectral_amplitude import spectral_amplitude
+from jostle_lab.statistics.rotation import RPM, nearest_neighbours_regression
+
+
+def draw_all(results: Results) -> list[Path]:
+    """Draw every picture of a results folder; return their paths."""
+    return [draw(name, results) for name in PICTURES]
+
+
+def draw(name: str, results: Results) -> Path:
+    """Draw one of `PICTURES`; return its path."""
+    path = results.folder / name
+    with house_style():
+        PICTURES[name](results).savefig(path)
+    return path
+
+
+def _sense_norm(velocities: NDArray[np.float64]) -> Normalize:
+    """Colour scale [RPM], symmetric; saturates at the 90th percentile so that slow disks still show their sense."""
+    limit = max(float(np.percentile(np.abs(velocities), 90)), 1e-9)
+    return Normalize(-limit, limit)
+
+
+def _line_colours(velocities: NDArray[np.float64], norm: Normalize) -> NDArray[np.float64]:
+    """Colours by sense, shape (disks, 4), kept off white so that lines of slow disks stay visible."""
+    share = np.clip(velocities / norm.vmax if norm.vmax else velocities, -1.0, 1.0)
+    share = np.sign(share) * (0.35 + 0.65 * np.abs(share))
+    return np.asarray(SENSE(0.5 + 0.5 * share))
+
+
+def angular_paths(results: Results) -> Figure:
+    """Angle of every disk against time, one panel for each Gamma, as in P Fig. 3.1 (first packing)."""
+    rows = sorted(results.amplitudes_of(results.seeds[0]), key=lambda row: row["gamma_true"])
+    rows = [rows[i] for i in np.unique(np.linspace(0, len(rows) - 1, 9).round().astype(int))]
+    columns = {1: 1, 2: 2, 4: 2, 8: 4}.get(len(rows), 3)
+    lines = math.ceil(len(rows) / columns)
+    figure = Figure(figsize=(WIDTH, 0.5 + 1.95 * lines), layout="constrained")
+    axes = figure.subplots(lines, columns, squeeze=False, sharex=True)
+    for panel in axes.flat[len(rows) :]:
+        panel.set_visible(False)
+    for panel, row in zip(axes.flat, rows, strict=False):
+        time, angles = results.angles(results.seeds[0], row["amplitude"])
+        turns = (angles - angles[0]) / math.tau
+        velocities = (angles[-1] - angles[0]) / (time[-1] - time[0]) / RPM
+        for path, colour in zip(turns.T, _line_colours(velocities, _sense_norm(velocities)), strict=True):
+            panel.plot(time, path, color=colour, linewidth=0.7)
+        panel.axhline(0.0, color="0.5", linewidth=0.4, zorder=0)
+        panel.set_title(rf"$\Gamma$ = {row['gamma_true']:.2f}", pad=3.0)
+        panel.margins(x=0.0)
+        limit = 1.08 * float(np.max(np.abs(turns))) or 1.0
+        panel.set_ylim(-limit, limit)
+        panel.locator_params(axis="y", nbins=5)
+    for panel in axes[:, 0]:
+        panel.set_ylabel("angle [revolutions]")
+    figure.align_ylabels(axes[:, 0])
+    for column in range(columns):
+        shown = [panel for panel in axes[:, column] if panel.get_visible()]
+        shown[-1].set_xlabel("time [s]")
+        shown[-1].tick_params(labelbottom=True)
+    return figure
+
+
+def packing(results: Results) -> Figure:
+    """The first packing at the amplitude nearest to half drive, disks coloured by the sense of rotation."""
+    rows = results.amplitudes_of(results.seeds[0])
+    row = min(rows, key=lambda r: abs(r["gamma_true"] - 2.0))
+    disks = results.disks_of(results.seeds[0], row["amplitude"])
+    velocities = np.array([disk["mean_velocity"] for disk in disks]) / RPM
+    norm = _sense_norm(velocities)
+    half = 100.0 * 0.5 * results.box_width()
+    top = max(100.0 * (disk["y"] + disk["radius"]) for disk in disks) + 1.5
+    drawn = 0.68 * WIDTH
+    figure = Figure(figsize=(WIDTH * 0.92, drawn * (top + 1.0) / (2.0 * half + 2.0) + 0.75), layout="constrained")
+    axes = figure.subplots()
+    for disk, velocity in zip(disks, velocities, strict=True):
+        centre = (100.0 * disk["x"], 100.0 * disk["y"])
+        axes.add_patch(
+            Circle(centre, 100.0 * disk["radius"], facecolor=SENSE(norm(velocity)), edgecolor="0.15", linewidth=0.6)
+        )
+        _turning_arrow(axes, centre, 100.0 * disk["radius"], velocity / norm.vmax if norm.vmax else 0.0)
+    axes.plot([-half, -half, half, half], [top, 0.0, 0.0, top], color="0.1", linewidth=1.6, solid_joinstyle="miter")
+    axes.set(xlim=(-half - 1.0, half + 1.0), ylim=(-1.0, top), aspect="equal", xlabel="x [cm]", ylabel="y [cm]")
+    axes.set_title(rf"$\Gamma$ = {row['gamma_true']:.2f}, packing of seed {results.seeds[0]}")
+    for side in ("left", "bottom"):
+        axes.spines[side].set_visible(False)
+    scale = ScalarMappable(norm, SENSE)
+    bar = figure.colorbar(scale, ax=axes, shrink=0.72, aspect=28, pad=0.02, extend="both")
+    bar.set_label("mean angular velocity [RPM]\nred clockwise, blue counter-clockwise")
+    bar.outline.set_linewidth(0.5)
+    return figure
+
+
+def _turning_arrow(axes: Any, centre: tuple[float, float], radius: float, share: float) -> None:
+    """An arc with a head inside a disk, in the sense of rotation; none for disks that hardly turn."""
+    if abs(share) < 0.05:
+        return
+    sense = math.copysign(1.0, share)
+    arc = math.radians(90.0) + sense * np.linspace(math.radians(-60.0), math.radians(60.0), 40)
+    x, y = centre[0] + 0.55 * radius * np.cos(arc), centre[1] + 0.55 * radius * np.sin(arc)
+    axes.plot(x, y, color="0.1", linewidth=0.7, solid_capstyle="butt")
+    head = {"arrowstyle": "-|>", "color": "0.1", "linewidth": 0.0, "mutation_scale": 6.0, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", xy=(x[-1], y[-1]), xytext=(x[-6], y[-6]), arrowprops=head)
+
+
+def accelerometer_spectrum(results: Results) -> Figure:
+    """Spectral density of both sensors at a strong and a weak drive, window and side bands marked."""
+    seed = results.seeds[0]
+    rows = sorted(results.amplitudes_of(seed), key=lambda row: row["gamma_true"])
+    setup = results.setup
+    rate, drive = setup["accelerometer"]["data_rate"], setup["drive_frequency"]
+    figure = Figure(figsize=(WIDTH, 3.1), layout="constrained")
+    panels = figure.subplots(1, 2, sharey=True, sharex=True)
+    for panel, row in zip(panels, (rows[-1], rows[0]), strict=True):
+        record = results.readings(seed, row["amplitude"])
+        panel.axvspan(drive - 15.0, drive - 5.0, color="0.93", linewidth=0, label="side bands")
+        panel.axvspan(drive + 5.0, drive + 15.0, color="0.93", linewidth=0)
+        panel.axvspan(drive - 5.0, drive + 5.0, color="#f3d9a4", linewidth=0, label="window, 10 Hz")
+        for number, colour in enumerate(("#9dbfe0", "#14406f")):
+            estimate = spectral_amplitude(record[:, number], rate, drive)
+            panel.semilogy(
+                estimate.frequencies[1:],
+                estimate.density[1:],
+                color=colour,
+                linewidth=0.5,
+                label=f"sensor {number + 1}, $a$ = {estimate.amplitude:.3f} g",
+            )
+        folded = abs(2.0 * drive - rate * round(2.0 * drive / rate))
+        panel.annotate(
+            "2nd harmonic,\nfolded", (folded, 0.5), xycoords=("data", "axes fraction"), ha="center", fontsize=7
+        )
+        panel.set_title(rf"A = {row['amplitude']:.2f}, true $\Gamma$ = {row['gamma_true']:.3f}")
+        panel.set(xlabel="frequency [Hz]", xlim=(0.0, 0.5 * rate))
+        panel.legend(loc="upper left")
+    panels[0].set_ylabel(r"spectral density [g$^2$/Hz]")
+    low, high = panels[0].get_ylim()
+    panels[0].set_ylim(max(low, 1e-9), high * 1e3)
+    return figure
+
+
+def rotation_against_gamma(results: Results) -> Figure:
+    """<omega^2>, rho^2 and sigma_a against the true Gamma and the Gamma that the accelerometers give."""
+    column = {series.name: series.to_numpy() for series in results.amplitudes.sort("gamma_true")}
+    figure = Figure(figsize=(WIDTH, 3.2), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    positive = column["mean_square_rpm"] > 0.0
+    dark, light = "0.1", "#d07a1f"
+    left.loglog(
+        column["gamma_true"][positive], column["mean_square_rpm"][positive], "o", color=dark, ms=3, label="truth"
+    )
+    left.loglog(
+        column["gamma_measured"],
+        column["mean_square_rpm_camera"],
+        "s",
+        color=light,
+        ms=5.5,
+        mfc="none",
+        label="accelerometers and camera",
+    )
+    if len(results.seeds) >= 10:
+        at = np.geomspace(column["gamma_true"][0], column["gamma_true"][-1], 200)
+        smooth = nearest_neighbours_regression(column["gamma_true"], column["mean_square_rpm"], len(results.seeds), at)
+        left.loglog(at, smooth, "-", color=dark, linewidth=0.8, label=f"{len(results.seeds)} nearest neighbours")
+    _guide_lines(left, column["gamma_true"], column["mean_square_rpm"])
+    left.set(xlabel=r"$\Gamma$", ylabel=r"$\langle\omega^2\rangle$ [RPM$^2$]")
+    _plain_ticks(left, column["gamma_true"])
+    left.legend(loc="lower right")
+    right.plot(column["gamma_true"], column["correlation"], "o", color=dark, ms=4, label=r"$\langle\rho^2\rangle$")
+    right.plot(
+        column["gamma_true"], column["adjusted_deviation"], "o", color="0.6", ms=4, label=r"$\langle\sigma_a\rangle$"
+    )
+    middle = right.get_yaxis_transform()
+    right.axhline(0.43, color="0.1", linewidth=0.6, linestyle=":")
+    right.text(0.42, 0.435, r"driftless walk, $\rho^2$", ha="center", va="bottom", fontsize=7, transform=middle)
+    right.set(xlabel=r"$\Gamma$", ylabel="steadiness of the paths", ylim=(-0.02, 1.05), xlim=(0.0, None))
+    right.legend(loc="center right", bbox_to_anchor=(1.0, 0.68))
+    return figure
+
+
+def _plain_ticks(axes: Any, gamma: NDArray[np.float64]) -> None:
+    """Gamma as 0.2, 0.5, 1, 2, 5 instead of powers of ten."""
+    ticks = [t for t in (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0) if 0.7 * gamma.min() <= t <= 1.4 * gamma.max()]
+    axes.set_xticks(ticks, [f"{t:g}" for t in ticks])
+    axes.minorticks_off()
+
+
+def _guide_lines(axes: Any, gamma: NDArray[np.float64], mean_square: NDArray[np.float64]) -> None:
+    """Slopes of P Fig. 3.2, 3.94 below Gamma 1 and 1.00 above 1.6, laid through the middle of the points there."""
+    for low, high, slope, style in ((0.0, 1.0, 3.94, "--"), (1.6, 4.5, 1.0, "-.")):
+        inside = (gamma >= low) & (gamma <= high) & (mean_square > 0.0)
+        if np.count_nonzero(inside) < 2:
+            continue
+        x, y = np.log(gamma[inside]), np.log(mean_square[inside])
+        ends = np.array([x.min() - 0.1, x.max() + 0.1])
+        axes.loglog(
+            np.exp(ends),
+            np.exp(y.mean() + slope * (ends - x.mean())),
+            style,
+            color="0.5",
+            lw=0.8,
+            label=f"slope {slope:.2f} (thesis)",
+        )
+
+
+PICTURES: dict[str, Callable[[Results], Figure]] = {
+    "angular_paths.png": angular_paths,
+    "packing.png": packing,
+    "accelerometer_spectrum.png": accelerometer_spectrum,
+    "rotation_against_gamma.png": rotation_against_gamma,
+}

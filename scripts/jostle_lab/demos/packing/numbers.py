@@ -1,0 +1,176 @@
+"""A results folder in, a page of numbers out."""
+
+from pathlib import Path
+from typing import Any
+
+import polars as pl
+
+from jostle_lab.protocol.results import Results
+from jostle_lab.sensors.camera import Camera
+from jostle_lab.statistics.rotation import RPM
+from jostle_lab.tables import Row, markdown_table
+
+
+def write_report(results: Results) -> Path:
+    """Write `numbers.md`; return its path."""
+    frame_rate = results.setup["camera"]["frame_rate"]
+    sections = [
+        "# Numbers",
+        _setting(results),
+        "## Drive: true, measured, bias",
+        _drive_table(results),
+        "True: Fourier component of the base acceleration at the drive frequency. Peak: largest sample of the base "
+        "acceleration, shocks included. Measured: sqrt(2) SD in a 10 Hz window, mean of two sensors. Corrected: the "
+        "noise floor of the side bands removed. Coupling error: work done by the plate less work received by the "
+        "grains, over the latter.",
+        "## Rotation",
+        _rotation_table(results),
+        f"Camera: one frame in {1.0 / frame_rate:g} s; it cannot resolve more than "
+        f"{Camera(frame_rate).alias_limit() / RPM:g} RPM. Aliased: disks whose excursion by camera is not the true "
+        "one. A driftless random walk has rho^2 = 0.43 on average. Largest move: of the centre of a disk while "
+        "recording.",
+        _aliased_disks(results),
+        "## Cost of the loop",
+        _cost_table(results),
+    ]
+    path = results.folder / "numbers.md"
+    path.write_text("\n\n".join(sections) + "\n")
+    return path
+
+
+def _setting(results: Results) -> str:
+    summary, setup = results.summaries[0], results.setup
+    driver: dict[str, Any] = summary["driver"]
+    sensor: dict[str, Any] = setup["accelerometer"]
+    bandwidth = "none" if sensor["bandwidth"] is None else f"{sensor['bandwidth']:g} Hz"
+    seeds = results.seeds
+    seeds_text = f"{seeds[0]} to {seeds[-1]}" if len(seeds) > 2 else ", ".join(map(str, seeds))
+    rows = [
+        ("packings", f"{len(seeds)} (seeds {seeds_text}), {summary['simulated_seconds']} s simulated each"),
+        ("drive", f"{setup['drive_frequency']:g} Hz, {summary['full_drive_voltage']:.2f} V peak at A = 1"),
+        ("exchange", f"{setup['exchange']}, {setup['steps_per_second']} steps a second"),
+        ("loudspeaker", driver["name"]),
+        ("moving mass", f"{summary['moving_mass']:.3f} kg, of which {driver['moving_mass']:g} kg cone and coil"),
+        ("weight of the grains", f"{summary['grains_weight']:.3f} N"),
+        (
+            "accelerometers",
+            f"{sensor['data_rate']:g} Hz, +-{sensor['measuring_range']:g} g, resolution {sensor['resolution']:g} g, "
+            f"noise density {1e6 * sensor['noise_density']:g} ug/sqrt(Hz), low-pass {bandwidth}",
+        ),
+    ]
+    rows += [(name, str(value)) for name, value in results.run.items() if name != "setup"]
+    return "\n".join(f"- {name}: {value}" for name, value in rows)
+
+
+def _by_amplitude(results: Results) -> list[Row]:
+    """Mean over packings of each column, from strong to weak, and the standard deviation of the true Gamma."""
+    spread = pl.col("gamma_true").std(ddof=0).alias("spread")
+    groups = results.amplitudes.group_by("amplitude").agg(pl.exclude("amplitude").mean(), spread)
+    return groups.sort("amplitude", descending=True).to_dicts()
+
+
+def _drive_table(results: Results) -> str:
+    header = [
+        "A",
+        "true Gamma",
+        "spread",
+        "peak",
+        "measured",
+        "bias",
+        "corrected",
+        "bias",
+        "clipped",
+        "work received [W]",
+        "coupling error",
+    ]
+    seconds = {i["amplitude"]: i["recording"] for i in results.setup["protocol"]["intervals"]}
+    rows = [
+        [
+            f"{mean['amplitude']:.2f}",
+            f"{mean['gamma_true']:.4f}",
+            f"{mean['spread']:.4f}",
+            f"{mean['gamma_peak']:.3f}",
+            f"{mean['gamma_measured']:.4f}",
+            f"{100 * mean['bias']:+.2f} %",
+            f"{mean['gamma_corrected']:.4f}",
+            f"{100 * mean['bias_corrected']:+.2f} %",
+            f"{mean['clipped_readings']:.0f}",
+            f"{mean['work_received'] / seconds[mean['amplitude']]:.3g}",
+            f"{100 * mean['coupling_error']:+.2g} %",
+        ]
+        for mean in _by_amplitude(results)
+    ]
+    return markdown_table(header, rows)
+
+
+def _rotation_table(results: Results) -> str:
+    header = [
+        "A",
+        "true Gamma",
+        "<omega^2> [RPM^2]",
+        "by camera",
+        "<rho^2>",
+        "by camera",
+        "<sigma_a>",
+        "by camera",
+        "fastest disk [RPM]",
+        "aliased disks",
+        "largest move [mm]",
+    ]
+    rows = []
+    speeds = results.disks.group_by("amplitude").agg(pl.col("mean_velocity").abs().max() / RPM)
+    fastest = dict(speeds.iter_rows())
+    for mean in _by_amplitude(results):
+        rows.append(
+            [
+                f"{mean['amplitude']:.2f}",
+                f"{mean['gamma_true']:.3f}",
+                f"{mean['mean_square_rpm']:.4g}",
+                f"{mean['mean_square_rpm_camera']:.4g}",
+                f"{mean['correlation']:.3f}",
+                f"{mean['correlation_camera']:.3f}",
+                f"{mean['adjusted_deviation']:.3f}",
+                f"{mean['adjusted_deviation_camera']:.3f}",
+                f"{fastest[mean['amplitude']]:.2f}",
+                f"{mean['aliased_disks']:.1f}",
+                f"{1000 * mean['largest_move']:.1f}",
+            ]
+        )
+    return markdown_table(header, rows)
+
+
+def _aliased_disks(results: Results, shown: int = 12) -> str:
+    """Which disks the camera has wrong, and by how much."""
+    wrong = results.disks.filter(pl.col("aliased") == 1).sort(pl.col("mean_velocity").abs(), descending=True)
+    if wrong.is_empty():
+        return "The camera measures the excursion of every disk correctly."
+    header = ["seed", "A", "disk", "true [RPM]", "by camera [RPM]"]
+    rows = [
+        [
+            f"{disk['seed']}",
+            f"{disk['amplitude']:.2f}",
+            f"{disk['disk']}",
+            f"{disk['mean_velocity'] / RPM:+.2f}",
+            f"{disk['camera_velocity'] / RPM:+.2f}",
+        ]
+        for disk in wrong.head(shown).to_dicts()
+    ]
+    title = f"The camera has {len(wrong)} of {len(results.disks)} excursions wrong; the fastest:"
+    return f"{title}\n\n{markdown_table(header, rows)}"
+
+
+def _cost_table(results: Results) -> str:
+    simulated = sum(s["simulated_seconds"] for s in results.summaries)
+    steps = sum(s["communication_steps"] for s in results.summaries)
+    wall = sum(s["wall_seconds"] for s in results.summaries)
+    costs: dict[str, float] = {}
+    for summary in results.summaries:
+        for name, value in summary["costs"].items():
+            costs[name] = costs.get(name, 0.0) + value
+    costs["loop and the rest"] = wall - sum(costs.values())
+    rows = [
+        [name, f"{1e3 * value / simulated:.2f}", f"{1e6 * value / steps:.2f}", f"{100 * value / wall:.1f} %"]
+        for name, value in [*costs.items(), ("all", wall)]
+    ]
+    table = markdown_table(["part", "ms per simulated second", "us per step", "share"], rows)
+    return f"{table}\n\nOne process simulates {simulated / wall:.2f} s in a second."

@@ -1,0 +1,1 @@
+"""A shaker whose controller holds Gamma while it sweeps the frequency under a ratchet."""

@@ -1,0 +1,1 @@
+"""A PI controller that holds the angular velocity of a disk through stick and slip."""

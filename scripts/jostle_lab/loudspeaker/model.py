@@ -1,0 +1,193 @@
+"""Amplifier voltage and the force of the grains in, motion of the base out.
+
+    L di/dt = u - R i - Bl v                       coil: resistance, inductance, back-EMF
+    dx/dt   = v
+    m dv/dt = Bl i - R_ms v - k x + (F + W)        F: force of the grains on the base [N], up positive
+
+x [m] counts from the equilibrium under the weight of the moving parts and of the grains, W [N]; so grains at rest
+(F = -W) leave the base at rest. The system is linear and is stepped exactly, whatever the step: the drive
+u = U sin(2 pi f t) as a harmonic oscillator joined to the state, F constant over the step. U and f may change from
+step to step. Guarantees: no error of its
+own but rounding. Not here: order of the exchange with the grains (`coupling`).
+"""
+
+import cmath
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import expm
+
+from jostle_lab.errors import require
+from jostle_lab.loudspeaker.driver import CARRIED_MASS, GBS_250F38CP01_04, Driver
+
+
+@dataclass(frozen=True)
+class SteadyState:
+    """Amplitudes of the unloaded, sinusoidal steady state (peak values, complex: phase against u = sin)."""
+
+    current: complex
+    displacement: complex
+    velocity: complex
+    acceleration: complex
+
+
+class Loudspeaker:
+    """A driver that carries the rail and the bottom of the box, stepped exactly with a fixed step.
+
+    Args:
+        step: communication step h [s].
+        drive_frequency: f [Hz].
+        grains_weight: static load W [N] that the suspension already carries at x = 0.
+        driver: Thiele-Small parameters.
+        carried_mass: mass bolted to the cone [kg].
+
+    """
+
+    def __init__(
+        self,
+        step: float,
+        drive_frequency: float = 80.0,
+        grains_weight: float = 0.0,
+        driver: Driver = GBS_250F38CP01_04,
+        carried_mass: float = CARRIED_MASS,
+    ) -> None:
+        self.step_size = require("communication step [s]", step, 1e-7, 1.0, "Choose a step between 1e-5 and 1e-3 s.")
+        self.drive_frequency = require("drive frequency [Hz]", drive_frequency, 1e-3, 1e5, "The thesis drives at 80.")
+        self.grains_weight = grains_weight
+        self.driver = driver
+        self.mass = driver.moving_mass + carried_mass
+        self.voltage_amplitude = 0.0
+        self.steps_taken = 0
+        self._tuned_at, self._tuned_turns = 0, 0.0
+        self._state = np.zeros(3)
+        self._input = np.zeros(6)
+        self._transition = self._transition_matrix(step)
+
+    def system_matrix(self) -> NDArray[np.float64]:
+        """Matrix of d/dt (i, x, v) = A (i, x, v) without drive and grains, shape (3, 3)."""
+        d = self.driver
+        return np.array(
+            [
+                [-d.coil_resistance / d.coil_inductance, 0.0, -d.force_factor / d.coil_inductance],
+                [0.0, 0.0, 1.0],
+                [d.force_factor / self.mass, -d.suspension_stiffness / self.mass, -d.suspension_damping / self.mass],
+            ]
+        )
+
+    def _transition_matrix(self, step: float) -> NDArray[np.float64]:
+        """First three rows of exp(M h) for the state (i, x, v, F + W, u, du/dt / (2 pi f)), shape (3, 6)."""
+        angular_frequency = math.tau * self.drive_frequency
+        joined = np.zeros((6, 6))
+        joined[:3, :3] = self.system_matrix()
+        joined[2, 3] = 1.0 / self.mass
+        joined[0, 4] = 1.0 / self.driver.coil_inductance
+        joined[4, 5] = angular_frequency
+        joined[5, 4] = -angular_frequency
+        return np.ascontiguousarray(expm(joined * step)[:3])
+
+    def retune(self, drive_frequency: float) -> None:
+        """Drive at another frequency [Hz] from now on; the voltage goes on without a jump in phase."""
+        require("drive frequency [Hz]", drive_frequency, 1e-3, 1e5, "Choose one between 5 and 500.")
+        self._tuned_turns, self._tuned_at = self.drive_turns, self.steps_taken
+        self.drive_frequency = drive_frequency
+        self._transition = self._transition_matrix(self.step_size)
+
+    @property
+    def drive_turns(self) -> float:
+        """Phase of the voltage in turns, in [0, 1)."""
+        since = self.steps_taken - self._tuned_at
+        return math.fmod(self._tuned_turns + self.drive_frequency * since * self.step_size, 1.0)
+
+    @property
+    def time(self) -> float:
+        """Time [s]: steps taken times step, never a running sum."""
+        return self.steps_taken * self.step_size
+
+    @property
+    def current(self) -> float:
+        """Coil current [A]."""
+        return float(self._state[0])
+
+    @property
+    def displacement(self) -> float:
+        """Base displacement from equilibrium [m], up positive."""
+        return float(self._state[1])
+
+    @property
+    def velocity(self) -> float:
+        """Base velocity [m/s]."""
+        return float(self._state[2])
+
+    def acceleration(self, reaction_force: float) -> float:
+        """Base acceleration [m/s2] while the grains push with `reaction_force` [N, up positive]."""
+        current, displacement, velocity = self._state.tolist()
+        d = self.driver
+        force = d.force_factor * current - d.suspension_damping * velocity - d.suspension_stiffness * displacement
+        return float((force + reaction_force + self.grains_weight) / self.mass)
+
+    def advance(self, reaction_force: float) -> float:
+        """One step under the constant `reaction_force` [N]; return the work [J] done by the base on the grains.
+
+        The work is the exact integral -F (x(t + h) - x(t)) of a force that is constant over the step.
+        """
+        before = self._state[1]
+        phase = math.tau * self.drive_turns
+        self._input[:3] = self._state
+        self._input[3] = reaction_force + self.grains_weight
+        self._input[4] = self.voltage_amplitude * math.sin(phase)
+        self._input[5] = self.voltage_amplitude * math.cos(phase)
+        self._state = self._transition @ self._input
+        self.steps_taken += 1
+        return float(-reaction_force * (self._state[1] - before))
+
+    def save(self) -> tuple[NDArray[np.float64], int]:
+        """Everything that `advance` changes."""
+        return self._state.copy(), self.steps_taken
+
+    def restore(self, saved: tuple[NDArray[np.float64], int]) -> None:
+        """Return to a state that `save` gave."""
+        self._state, self.steps_taken = saved[0].copy(), saved[1]
+
+    def energy(self) -> float:
+        """Magnetic, elastic and kinetic energy [J], zero at equilibrium."""
+        d = self.driver
+        current, displacement, velocity = self._state.tolist()
+        return 0.5 * float(
+            d.coil_inductance * current**2 + d.suspension_stiffness * displacement**2 + self.mass * velocity**2
+        )
+
+    def steady_state(self, voltage_amplitude: float) -> SteadyState:
+        """Unloaded response to u = U sin(2 pi f t): each signal is Im(phasor exp(2 pi i f t))."""
+        d = self.driver
+        s = 1j * math.tau * self.drive_frequency
+        mechanical = self.mass * s + d.suspension_damping + d.suspension_stiffness / s
+        electrical = d.coil_resistance + s * d.coil_inductance
+        current = voltage_amplitude / (electrical + d.force_factor**2 / mechanical)
+        velocity = d.force_factor * current / mechanical
+        return SteadyState(current, velocity / s, velocity, velocity * s)
+
+    def voltage_for_acceleration(self, amplitude: float) -> float:
+        """Voltage amplitude [V] whose unloaded response has the acceleration `amplitude` [m/s2].
+
+        Raises LabError beyond the thermal rating or the linear excursion (weight included) of the driver.
+        """
+        d = self.driver
+        voltage = amplitude / abs(self.steady_state(1.0).acceleration)
+        response = self.steady_state(voltage)
+        power = 0.5 * abs(response.current) ** 2 * d.coil_resistance
+        remedy = "Lower the acceleration at full drive or choose a stronger driver."
+        require("coil power at full drive [W]", power, 0.0, d.rated_power, remedy)
+        excursion = abs(response.displacement) + self.static_sag()
+        require("excursion at full drive, sag included [m]", excursion, 0.0, d.maximum_excursion, remedy)
+        return voltage
+
+    def static_sag(self, gravity: float = 9.8) -> float:
+        """How far [m] the weight of the moving parts and of the grains presses the suspension down."""
+        return (self.mass * gravity + self.grains_weight) / self.driver.suspension_stiffness
+
+
+def phase_of(phasor: complex) -> float:
+    """Phase [rad] of a steady-state signal against the voltage."""
+    return cmath.phase(phasor)

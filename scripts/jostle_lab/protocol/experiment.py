@@ -1,0 +1,264 @@
+"""One packing through the whole protocol: grains and protocol in, a folder of CSV files out.
+
+A folder whose `packing.json` exists is complete; until then its tables grow with each interval.
+"""
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from jostle_lab.coupling.master import Coupling, Exchange
+from jostle_lab.errors import LabError, require
+from jostle_lab.fmu.grains import Grains
+from jostle_lab.loudspeaker.model import Loudspeaker
+from jostle_lab.protocol.intervals import Interval, Protocol
+from jostle_lab.sensors.accelerometer import STANDARD_GRAVITY, Accelerometer
+from jostle_lab.sensors.camera import Camera, aliasing, photograph, unwrap
+from jostle_lab.sensors.spectral_amplitude import spectral_amplitude, true_amplitude
+from jostle_lab.statistics.rotation import rotation
+from jostle_lab.tables import Row, write_table
+
+SENSORS = 2
+KEPT_SECONDS = 60
+"""Length [s] of the accelerometer record kept as CSV for each amplitude; the estimate uses the whole record."""
+
+FINISHED, UNFINISHED = "packing.json", "unfinished.json"
+"""Summary of a packing, and of one whose protocol goes on."""
+
+Progress = Callable[[int], None]
+"""Called with the simulated seconds that have passed since the last call; 0: the tables have been written."""
+
+
+@dataclass(frozen=True)
+class Setup:
+    """Everything that decides the outcome besides the grains and the seed."""
+
+    protocol: Protocol
+    steps_per_second: int = 4800
+    """Communication rate [Hz]: a multiple of the drive, of the data rate and of the frame rate."""
+    exchange: Exchange = Exchange.GRAINS_FIRST
+    drive_frequency: float = 80.0
+    """[Hz]."""
+    full_drive_gamma: float = 5.0
+    """Gamma of the unloaded base at A = 1."""
+    accelerometer: Accelerometer = field(default_factory=Accelerometer)
+    camera: Camera = field(default_factory=Camera)
+
+    def __post_init__(self) -> None:
+        """Refuse rates that do not fit together, before anything runs."""
+        require("steps per second", self.steps_per_second, 400, 1e5, "4800 suits the thesis' packing.")
+        require("Gamma at full drive", self.full_drive_gamma, 0.01, 8.0, "The thesis goes to about 5.")
+        for name, rate in (
+            ("drive frequency", self.drive_frequency),
+            ("accelerometers' data rate", self.accelerometer.data_rate),
+            ("camera's frame rate", self.camera.frame_rate),
+        ):
+            ratio = self.steps_per_second / rate
+            if not math.isclose(ratio, round(ratio), rel_tol=1e-9):
+                raise LabError(
+                    f"steps per second = {self.steps_per_second} is not a multiple of the {name}, {rate:g} Hz. "
+                    "Choose a multiple of all rates, such as 4800."
+                )
+
+    def steps_per_frame(self) -> int:
+        """Communication steps between two pictures."""
+        return round(self.steps_per_second / self.camera.frame_rate)
+
+
+@dataclass
+class Record:
+    """What one interval gives."""
+
+    interval: Interval
+    acceleration: NDArray[np.float64]
+    """Of the base at the end of each step [m/s2], shape (steps,)."""
+    angles: NDArray[np.float64]
+    """[rad, unwrapped], shape (frames, disks), first frame at the start of the recording."""
+    positions: NDArray[np.float64]
+    """At the end [m], shape (disks, 2)."""
+    moved: NDArray[np.float64]
+    """Distance from start to end of the recording [m], shape (disks,)."""
+    work_by_plate: float
+    """[J]."""
+    work_received: float
+    """[J]."""
+
+
+class PackingRun:
+    """One packing on the loudspeaker, and the tables that grow with each interval."""
+
+    def __init__(self, grains: Grains, setup: Setup, seed: int, folder: Path) -> None:
+        self.grains, self.setup, self.seed, self.folder = grains, setup, seed, folder
+        self.loudspeaker = Loudspeaker(1.0 / setup.steps_per_second, setup.drive_frequency, grains.weight)
+        self.full_voltage = self.loudspeaker.voltage_for_acceleration(setup.full_drive_gamma * grains.gravity)
+        self.coupling = Coupling(self.loudspeaker, grains, setup.exchange)
+        self.sensor_cost, self._started = 0.0, perf_counter()
+        self._amplitudes: list[Row] = []
+        self._disks: list[Row] = []
+        self._angles: list[NDArray[np.float64]] = []
+        self._readings: list[NDArray[np.float64]] = []
+
+    def shake(self, amplitude: float, seconds: int, progress: Progress) -> None:
+        """Shake at a fraction of the full drive, unobserved."""
+        self.loudspeaker.voltage_amplitude = amplitude * self.full_voltage
+        for _ in range(seconds):
+            self.coupling.run(self.setup.steps_per_second)
+            progress(1)
+
+    def record(self, number: int, interval: Interval, progress: Progress) -> None:
+        """Go through interval `number`."""
+        self.shake(interval.amplitude, interval.relaxation, progress)
+        record = _record(self.coupling, self.setup, interval, progress)
+        measuring = perf_counter()
+        sensors = _read_sensors(record, self.setup, (self.seed, number))
+        self._amplitudes.append(_amplitude_row(record, sensors, self.setup, self.grains, self.seed))
+        self._disks.extend(_disk_rows(record, self.setup, self.grains, self.seed))
+        self._angles.append(_angle_rows(record, self.setup))
+        self._readings.append(_sensor_rows(interval, sensors, self.setup))
+        self.sensor_cost += perf_counter() - measuring
+
+    def write(self) -> None:
+        """Write the tables of the intervals so far, and the summary as `UNFINISHED`."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        write_table(self.folder / "amplitudes.csv", self._amplitudes)
+        write_table(self.folder / "disks.csv", self._disks)
+        for file, column, blocks in (("angles", "disk", self._angles), ("accelerometers", "sensor", self._readings)):
+            rows = np.concatenate(blocks)
+            names = ["amplitude", "time", *(f"{column}_{i}" for i in range(1, rows.shape[1] - 1))]
+            pl.DataFrame(rows, schema=names).write_csv(self.folder / f"{file}.csv")
+        (self.folder / UNFINISHED).write_text(json.dumps(self._summary(), indent=2) + "\n")
+
+    def _summary(self) -> dict[str, Any]:
+        costs = {"loudspeaker": self.coupling.loudspeaker_cost, "sensors and analysis": self.sensor_cost}
+        return {
+            "seed": self.seed,
+            "simulated_seconds": round(self.loudspeaker.time),
+            "wall_seconds": perf_counter() - self._started,
+            "communication_steps": self.loudspeaker.steps_taken,
+            "costs": {**self.grains.costs, **costs},
+            "full_drive_voltage": self.full_voltage,
+            "grains_weight": self.grains.weight,
+            "box_width": self.grains.box_width,
+            "moving_mass": self.loudspeaker.mass,
+            "driver": asdict(self.loudspeaker.driver),
+        }
+
+
+def run_packing(grains: Grains, setup: Setup, seed: int, folder: Path, progress: Progress) -> None:
+    """Take `grains` through the protocol and write its folder, its tables after each interval."""
+    run = PackingRun(grains, setup, seed, folder)
+    run.shake(1.0, setup.protocol.settling, progress)
+    for number, interval in enumerate(setup.protocol.intervals):
+        run.record(number, interval, progress)
+        run.write()
+        progress(0)
+    (folder / UNFINISHED).replace(folder / FINISHED)
+
+
+def _record(coupling: Coupling, setup: Setup, interval: Interval, progress: Progress) -> Record:
+    grains, steps = coupling.grains, setup.steps_per_frame()
+    work, received = coupling.work_by_plate, grains.energy_input()
+    start = grains.positions()
+    angles, accelerations = [grains.angles()], []
+    for _ in range(round(interval.recording * setup.camera.frame_rate)):
+        accelerations.append(coupling.run(steps))
+        angles.append(grains.angles())
+        progress(1)
+    positions = grains.positions()
+    return Record(
+        interval,
+        np.concatenate(accelerations),
+        np.array(angles),
+        positions,
+        np.hypot(*(positions - start).T),
+        coupling.work_by_plate - work,
+        grains.energy_input() - received,
+    )
+
+
+def _read_sensors(record: Record, setup: Setup, seed: tuple[int, int]) -> list[NDArray[np.float64]]:
+    return [
+        setup.accelerometer.read(
+            record.acceleration, setup.steps_per_second, np.random.default_rng([*seed, sensor_number])
+        )
+        for sensor_number in range(SENSORS)
+    ]
+
+
+def _amplitude_row(
+    record: Record, sensors: list[NDArray[np.float64]], setup: Setup, grains: Grains, seed: int
+) -> dict[str, Any]:
+    rate, frequency = setup.accelerometer.data_rate, setup.drive_frequency
+    estimates = [spectral_amplitude(sensor, rate, frequency) for sensor in sensors]
+    in_gamma = STANDARD_GRAVITY / grains.gravity
+    measured = float(np.mean([e.amplitude for e in estimates])) * in_gamma
+    corrected = float(np.mean([e.amplitude_corrected for e in estimates])) * in_gamma
+    true = true_amplitude(record.acceleration, setup.steps_per_second, frequency) / grains.gravity
+    turned = rotation(record.angles, 1.0 / setup.camera.frame_rate)
+    by_camera = rotation(unwrap(photograph(record.angles)), 1.0 / setup.camera.frame_rate)
+    difference = record.work_by_plate - record.work_received
+    return {
+        "seed": seed,
+        "amplitude": record.interval.amplitude,
+        "gamma_true": true,
+        "gamma_peak": float(np.max(np.abs(record.acceleration))) / grains.gravity,
+        "gamma_measured": measured,
+        "gamma_corrected": corrected,
+        "bias": measured / true - 1.0,
+        "bias_corrected": corrected / true - 1.0,
+        "clipped_readings": sum(int(np.sum(np.abs(s) >= setup.accelerometer.measuring_range)) for s in sensors),
+        "work_by_plate": record.work_by_plate,
+        "work_received": record.work_received,
+        "coupling_error": difference / record.work_received if record.work_received else math.nan,
+        "mean_square_rpm": turned.mean_square(),
+        "mean_square_rpm_camera": by_camera.mean_square(),
+        "correlation": float(np.mean(turned.correlation)),
+        "adjusted_deviation": float(np.mean(turned.adjusted_deviation)),
+        "correlation_camera": float(np.mean(by_camera.correlation)),
+        "adjusted_deviation_camera": float(np.mean(by_camera.adjusted_deviation)),
+        "aliased_disks": aliasing(record.angles, 1.0 / setup.camera.frame_rate).count(),
+        "largest_move": float(np.max(record.moved)),
+    }
+
+
+def _disk_rows(record: Record, setup: Setup, grains: Grains, seed: int) -> list[dict[str, Any]]:
+    interval = 1.0 / setup.camera.frame_rate
+    turned, compared = rotation(record.angles, interval), aliasing(record.angles, interval)
+    return [
+        {
+            "seed": seed,
+            "amplitude": record.interval.amplitude,
+            "disk": i + 1,
+            "radius": grains.radii[i],
+            "x": record.positions[i, 0],
+            "y": record.positions[i, 1],
+            "moved": record.moved[i],
+            "mean_velocity": turned.mean_velocity[i],
+            "camera_velocity": compared.camera_velocity[i],
+            "aliased": int(compared.differs[i]),
+            "correlation": turned.correlation[i],
+            "adjusted_deviation": turned.adjusted_deviation[i],
+        }
+        for i in range(grains.radii.size)
+    ]
+
+
+def _angle_rows(record: Record, setup: Setup) -> NDArray[np.float64]:
+    frames = record.angles.shape[0]
+    time = np.arange(frames) / setup.camera.frame_rate
+    return np.column_stack((np.full(frames, record.interval.amplitude), time, record.angles))
+
+
+def _sensor_rows(interval: Interval, sensors: list[NDArray[np.float64]], setup: Setup) -> NDArray[np.float64]:
+    rate = setup.accelerometer.data_rate
+    kept = np.column_stack(sensors)[: round(KEPT_SECONDS * rate)]
+    time = np.arange(kept.shape[0]) / rate
+    return np.column_stack((np.full(kept.shape[0], interval.amplitude), time, kept))

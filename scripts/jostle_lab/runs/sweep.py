@@ -1,0 +1,152 @@
+"""Runs onto workers, rows into the store as they come: joblib on this machine, Dask on others."""
+
+import logging
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+from joblib import Parallel, delayed
+from tqdm import tqdm
+
+from jostle_lab.errors import LabError
+from jostle_lab.runs.run import Run
+from jostle_lab.runs.store import Store
+from jostle_lab.runs.worker import FAILED, Program, failure, perform
+from jostle_lab.tables import Row
+
+BETWEEN_PARTS = 1.0
+"""Shortest time from part to part [s]: a kill loses the rows of this time and the runs that have not ended."""
+AHEAD = 4
+"""Runs that are with a scheduler for each that it performs."""
+
+
+def _distributed() -> Any:
+    """Dask, when it is needed: its import takes longer than most commands."""
+    try:
+        return import_module("distributed")
+    except ImportError:
+        raise LabError("Dask is not installed. Install it: pip install 'jostle-lab[cluster]'.") from None
+
+
+@dataclass(frozen=True)
+class Workers:
+    """Where the runs are performed."""
+
+    scheduler: str | None = None
+    """Address of a Dask scheduler, such as tcp://host:8786; None: this machine."""
+    processes: int = 2
+    """Runs at a time on this machine."""
+    patience: float = 10.0
+    """How long the scheduler may take to answer [s]."""
+
+    def rows(self, program: Program, runs: Sequence[Run]) -> Iterator[Row]:
+        """Rows in the order in which the runs end. Raises LabError for a wrong program or a lost scheduler."""
+        if self.scheduler is not None:
+            with self._client() as client:
+                yield from self._remote_rows(client, program, runs)
+            return
+        # Threads of this process: each waits for a program of its own, so processes would only cost time and memory.
+        parallel = Parallel(self.processes, prefer="threads", return_as="generator_unordered")
+        yield from parallel(delayed(perform)(program, run) for run in runs)
+
+    @contextmanager
+    def _client(self) -> Iterator[Any]:
+        dask = _distributed()
+        logging.getLogger("distributed").setLevel(logging.ERROR)
+        try:
+            client = dask.Client(self.scheduler, timeout=self.patience)
+        except (OSError, ValueError) as error:
+            raise LabError(
+                f"No Dask scheduler answers at {self.scheduler}: {error}. Start one: dask scheduler"
+            ) from None
+        with client:
+            if not client.nthreads():
+                raise LabError(f"{self.scheduler} has no workers. Start one: dask worker {self.scheduler}")
+            yield client
+
+    def _remote_rows(self, client: Any, program: Program, runs: Sequence[Run]) -> Iterator[Row]:
+        """Only so many runs are with the scheduler at a time."""
+        left = iter(runs)
+        of_future: dict[Any, Run] = {}
+
+        def submit() -> Any:
+            run = next(left, None)
+            if run is None:
+                return None
+            future = client.submit(perform, program, run, key=f"jostle-{program.key(run)}", pure=False)
+            of_future[future.key] = run
+            return future
+
+        ahead = max(8, AHEAD * sum(client.nthreads().values()))
+        queue = _distributed().as_completed([submit() for _ in range(min(ahead, len(runs)))])
+        for future in queue:
+            run = of_future.pop(future.key)
+            if (another := submit()) is not None:
+                queue.add(another)
+            yield _row_of(future, program, run)
+
+
+def _row_of(future: Any, program: Program, run: Run) -> Row:
+    """Row of a future that is done. A run whose workers die fails; a wrong program or a lost scheduler ends all."""
+    if future.status == "finished":
+        row: Row = future.result()
+        return row
+    if future.status != "error":
+        raise LabError(f"The scheduler gave up a run ({future.status}). Is it still there? Repeat to go on.")
+    error = future.exception()
+    if isinstance(error, LabError):
+        raise error
+    return failure(program, run, f"{type(error).__name__}: {error}")
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """What a sweep needs beside its runs."""
+
+    store: Store
+    program: Program
+    workers: Workers = Workers()
+    show_progress: bool = True
+    retry_failed: bool = False
+
+    def run(self, runs: Sequence[Run], title: str = "sweep") -> dict[Run, Row]:
+        """Every run's row; what the store has already is not done again. Failed runs have rows that say so."""
+        keys = {run: self.program.key(run) for run in dict.fromkeys(runs)}
+        with self.store.writing():
+            kept = self.store.rows()
+            missing = [run for run, key in keys.items() if self._wanted(kept.get(key))]
+            failed = sum(kept[key]["state"] == FAILED for key in keys.values() if not self._wanted(kept.get(key)))
+            with tqdm(
+                total=len(keys),
+                initial=len(keys) - len(missing),
+                unit="run",
+                desc=title,
+                disable=not self.show_progress,
+                postfix={"failed": failed},
+            ) as bar:
+                if missing:
+                    self._perform(missing, bar, failed)
+                    kept = self.store.rows()
+        return {run: kept[key] for run, key in keys.items()}
+
+    def _wanted(self, row: Row | None) -> bool:
+        return row is None or (self.retry_failed and row["state"] == FAILED)
+
+    def _perform(self, missing: list[Run], bar: Any, failed: int) -> None:
+        """Write rows once in a while, and at the end whatever ends it."""
+        rows: list[Row] = []
+        written = time.monotonic()
+        try:
+            for row in self.workers.rows(self.program, missing):
+                rows.append(row)
+                failed += row["state"] == FAILED
+                bar.set_postfix(failed=failed, refresh=False)
+                bar.update()
+                if time.monotonic() - written >= BETWEEN_PARTS:
+                    self.store.append(rows)
+                    rows, written = [], time.monotonic()
+        finally:
+            self.store.append(rows)

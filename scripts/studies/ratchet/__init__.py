@@ -1,0 +1,7 @@
+"""Section IV of F, computed anew: what F states of the ratchet beside what the simulation gives.
+
+    figure -> cases -> sweep -> velocities of single runs -> statements -> docs/generated/ratchet.md
+
+"F" in docstrings means Z. Farkas, P. Tegzes, A. Vukics, T. Vicsek, "Transitions in the horizontal transport of
+vertically vibrated granular layers", Phys. Rev. E 60, 7022 (1999). Velocities are in cm/s, as there.
+"""

@@ -1,0 +1,1 @@
+"""Packings of 60 disks (P 3)."""

@@ -1,0 +1,1 @@
+"""One disk on two supports (P 5)."""

@@ -1,0 +1,1 @@
+"""One disk in a wedge (P 6)."""

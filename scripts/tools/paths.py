@@ -1,0 +1,18 @@
+"""Where this source tree keeps what the tools read and write."""
+
+import os
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TARGET = ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
+"""Of cargo."""
+BUILD = ROOT / "build"
+"""FMUs of `scripts/setup`; `release` in it is that of `scripts/release`."""
+GENERATED = ROOT / "docs" / "generated"
+"""Pages that tools write, and their data."""
+WORK_PRECISION, WORK_PRECISION_PAGE = GENERATED / "report", GENERATED / "report.md"
+STABILITY, STABILITY_PAGE = GENERATED / "stability", GENERATED / "stability.md"
+BINARIES, BINARIES_PAGE = GENERATED / "binaries", GENERATED / "binaries.md"
+INSTRUCTION_COUNTS = GENERATED / "instruction_counts"
+MODEL_DESCRIPTIONS = ROOT / "modelDescription"
+NOTICES = ROOT / "LICENSE-THIRD-PARTY.txt"

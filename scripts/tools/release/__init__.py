@@ -1,0 +1,1 @@
+"""What `scripts/release` built: sizes, needs, foreign symbols, and runs in an importer."""

@@ -1,0 +1,158 @@
+"""What a shipped library asks of the machine, how large it is, and what is in it that its scene does not need."""
+
+import ctypes
+import re
+import subprocess
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+
+from fmpy import read_model_description
+
+from jostle_lab.errors import LabError
+
+OLDEST_GLIBC = (2, 17)
+"""What anything that ships may need at most: what zig links against in scripts/release, of the year 2012."""
+
+COLUMNS = (
+    "name",
+    "bytes",
+    "fmi2_bytes",
+    "fmi3_bytes",
+    "variables",
+    "glibc",
+    "libraries",
+    "native_bytes",
+    "native_glibc",
+    "native_libraries",
+)
+"""Of the rows of sizes and needs."""
+
+Row = dict[str, str]
+
+SYSTEM = frozenset({"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "ld-linux-x86-64.so.2"})
+"""All parts of glibc; nothing else may be asked for."""
+
+STRANGERS = (
+    ("jostle_packing_event_driven", ("verlet", "event_located", "ratchet", "wedge", "three_disk")),
+    ("jostle_packing_located", ("event_driven", "VelocityVerlet", "ratchet", "wedge", "three_disk")),
+    ("jostle_packing", ("event_driven", "event_located", "ratchet", "wedge", "three_disk")),
+    ("jostle_ratchet", ("verlet", "wedge", "three_disk")),
+    ("jostle_wedge_molecular_dynamics", ("ratchet", "event_driven", "DiskInWedge", "three_disk")),
+    ("jostle_wedge", ("verlet", "ratchet", "event_driven", "three_disk")),
+    ("jostle_three_disk", ("ratchet", "event_driven", "wedge")),
+)
+"""Words of the symbols that a library must not have, by the beginning of its name; the first that fits counts."""
+
+NOWHERE = ("quick_xml", "clap", "catalogue", "command_line", "toml", "bundle")
+"""Words that no FMU's library may have: the command line, the writing of FMUs, the table of all scenes."""
+
+
+@dataclass(frozen=True)
+class Needs:
+    """What the dynamic linker must find."""
+
+    glibc: tuple[int, ...]
+    libraries: frozenset[str]
+
+    @property
+    def version(self) -> str:
+        """Version of glibc as people write it."""
+        return ".".join(map(str, self.glibc))
+
+
+def needs(library: Path) -> Needs:
+    """Newest symbol version and libraries that `library` asks for."""
+    versions = re.findall(r"GLIBC_([\d.]+)", _run("objdump", "-T", str(library)))
+    asked = re.findall(r"NEEDED\s+(\S+)", _run("objdump", "-p", str(library)))
+    return Needs(max(tuple(map(int, version.split("."))) for version in versions), frozenset(asked))
+
+
+def strangers(library: Path) -> list[str]:
+    """Symbols of an unstripped library that its scene does not need."""
+    name = library.stem.removeprefix("lib")
+    words = [*NOWHERE, *next((words for start, words in STRANGERS if name.startswith(start)), ())]
+    if not name.endswith("_input") and _has_twin(library):
+        words.append("FollowsInput")
+    symbols = _run("nm", str(library)).splitlines()
+    if len(symbols) < 100:
+        raise LabError(f"{library} has no symbol table. Build it with CARGO_PROFILE_RELEASE_STRIP=none")
+    return [line.split()[-1] for line in symbols if any(word in line for word in words)]
+
+
+def _has_twin(library: Path) -> bool:
+    """Whether this is the library of a drive without inputs."""
+    return library.stem.endswith("_sine") or library.stem in {"libjostle_wedge_map", "libjostle_wedge_event_driven"}
+
+
+def scenes(c_library: Path) -> list[tuple[str, str, str]]:
+    """Scene, engine and drive of everything that the C library knows."""
+    loaded = ctypes.CDLL(str(c_library))
+    loaded.jostle_scenes.restype = ctypes.c_size_t
+    text = ctypes.create_string_buffer(1 << 16)
+    loaded.jostle_scenes(text, ctypes.c_size_t(len(text)))
+    rows = (line.split(" ") for line in text.value.decode().splitlines())
+    return [(scene, engine, drive) for scene, engine, drive in rows]
+
+
+def release_rows(folder: Path, native: Path) -> list[Row]:
+    """Bundles every FMU with the libraries in `folder`; sizes and needs, beside those of a plain build in `native`.
+
+    Raises LabError if something asks for more than it may.
+    """
+    rows = []
+    out = folder / "fmu"
+    out.mkdir(exist_ok=True)
+    for scene, engine, drive in scenes(folder / "libjostle_c.so"):
+        files = [out / f"{scene}-{engine}-{drive}.fmi{version}.fmu" for version in (2, 3)]
+        for version, file in zip((2, 3), files, strict=True):
+            options = ["--engine", engine, "--drive", drive, "--fmi", str(version), "--out", str(file)]
+            _run(str(folder / "jostle"), "fmu", scene, *options)
+        row = _row(f"{scene}, {engine}, {drive}", folder / f"lib{_identifier(files[1])}.so", native)
+        row["fmi2_bytes"], row["fmi3_bytes"] = (str(file.stat().st_size) for file in files)
+        row["variables"] = str(len(read_model_description(str(files[1])).modelVariables))
+        rows.append(row)
+    rows.append(_row("C library", folder / "libjostle_c.so", native))
+    rows.append(_row("command line", folder / "jostle", native))
+    return rows
+
+
+def tools() -> list[Row]:
+    """What the libraries are built with."""
+    rust = _run("rustc", "--version").split()[1]
+    packages = [{"tool": name, "version": metadata.version(name)} for name in ("cargo-zigbuild", "ziglang")]
+    return [{"tool": "rustc", "version": rust}, *packages]
+
+
+def _row(name: str, file: Path, native: Path) -> Row:
+    found = needs(file)
+    foreign = found.libraries - SYSTEM
+    if found.glibc > OLDEST_GLIBC or foreign:
+        raise LabError(f"{file} needs glibc {found.version} and {sorted(foreign)}. Build it with scripts/release")
+    row = dict.fromkeys(COLUMNS, "")
+    row |= {"name": name, "bytes": str(file.stat().st_size), "glibc": found.version, "libraries": _short(found)}
+    twin = native / file.name
+    if twin.is_file():
+        plain = needs(twin)
+        row |= {"native_bytes": str(twin.stat().st_size), "native_glibc": plain.version}
+        row["native_libraries"] = _short(plain)
+    return row
+
+
+def _short(found: Needs) -> str:
+    return " ".join(sorted(name.split(".")[0] for name in found.libraries if not name.startswith("ld-")))
+
+
+def _identifier(fmu: Path) -> str:
+    listing = _run("python3", "-m", "zipfile", "-l", str(fmu))
+    found = re.search(r"binaries/x86_64-linux/(\S+)\.so", listing)
+    if not found:
+        raise LabError(f"{fmu} holds no library. Bundle it again")
+    return found[1]
+
+
+def _run(*arguments: str) -> str:
+    done = subprocess.run(arguments, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise LabError(f"{arguments[0]} failed: {done.stderr.strip()[-400:]}. Check that it is installed")
+    return done.stdout

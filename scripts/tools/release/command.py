@@ -1,0 +1,46 @@
+"""`python -m tools binaries` and `verify`: what `scripts/release` built, measured and run."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from jostle_lab.errors import LabError
+from jostle_lab.tables import write_table
+from tools.paths import BUILD, TARGET
+from tools.release import page
+from tools.release.binaries import COLUMNS, release_rows, strangers, tools
+from tools.release.verify import verify as verify_release
+
+Folder = Annotated[Path, typer.Argument(help="Folder that scripts/release made.")]
+
+
+def binaries(
+    folder: Folder = BUILD / "release",
+    symbols: Annotated[Path | None, typer.Option(help="Folder of the same libraries with their symbols.")] = None,
+    native: Annotated[Path, typer.Option(help="Folder of a plain build, to compare.")] = TARGET / "release",
+    data: Annotated[
+        Path | None, typer.Option(help="Keep the rows in this folder and write the page beside it.")
+    ] = None,
+) -> None:
+    """Print the size of each FMU and library, and what it needs; refuse what needs more than it may."""
+    if symbols is not None:
+        for library in sorted(symbols.glob("libjostle_*.so")):
+            if library.stem != "libjostle_c" and (found := strangers(library)):
+                raise LabError(f"{library} holds {len(found)} symbols of other scenes, such as {found[0]}")
+    rows = release_rows(folder, native)
+    typer.echo(page.table(rows))
+    if data is not None:
+        data.mkdir(parents=True, exist_ok=True)
+        write_table(data / "sizes.csv", rows, COLUMNS)
+        write_table(data / "tools.csv", tools())
+        data.with_suffix(".md").write_text(page.page(data))
+
+
+def verify(
+    folder: Folder = BUILD / "release",
+    probe: Annotated[list[Path] | None, typer.Option(help="FMU that panics on demand; may be repeated.")] = None,
+) -> None:
+    """Replay and simulate each FMU in a folder, and see that a panic in the probe stays in its instance."""
+    for line in verify_release(folder, probe or []):
+        typer.echo(line)

@@ -1,0 +1,1 @@
+"""Error against CPU time: points measured, diagrams and the page drawn from them."""

@@ -1,0 +1,80 @@
+//! What event-driven engines need of a base: where it is, when a flight meets it, how fast it is at the impact.
+//!
+//! Two kinds: a drive, which truly moves, and the random-phase approximation, which moves at impacts only (P 2.3.3).
+
+use rand_pcg::Pcg64;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::{FirstHit, Motion, RandomPhase};
+use crate::geometry::{Flight, disk_wall};
+
+/// Vertical motion of a base as impacts see it. Part of the state.
+pub trait BaseMotion: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static {
+    /// Motion at `time` \[s\] as far as flights are concerned.
+    fn motion(&self, time: f64) -> Motion;
+
+    /// Delay \[s\] from `time` \[s\] until a disk meets a wall whose normal has the vertical component `normal_up`; see
+    /// [`FirstHit::first_hit`].
+    fn first_hit(&self, time: f64, flight: &Flight, normal_up: f64) -> f64;
+
+    /// Velocity \[m/s\] of the base, up, at an impact while it is at `motion`; `normal_velocity` \[m/s\] is the disk's
+    /// along the wall's normal. None if no velocity is found after which the disk `leaves` the wall.
+    fn velocity_at_impact(
+        &mut self,
+        motion: Motion,
+        normal_velocity: f64,
+        normal_up: f64,
+        leaves: impl Fn(f64) -> bool,
+    ) -> Option<f64>;
+}
+
+impl<D: FirstHit> BaseMotion for D {
+    #[inline]
+    fn motion(&self, time: f64) -> Motion {
+        super::Drive::motion(self, time)
+    }
+
+    #[inline]
+    fn first_hit(&self, time: f64, flight: &Flight, normal_up: f64) -> f64 {
+        FirstHit::first_hit(self, time, flight, normal_up)
+    }
+
+    #[inline]
+    fn velocity_at_impact(&mut self, motion: Motion, _: f64, _: f64, _: impl Fn(f64) -> bool) -> Option<f64> {
+        Some(motion.velocity)
+    }
+}
+
+/// Base that stays in place and gives each impact the velocity of a sine at a random phase (P 2.3.3).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AtRandomPhase {
+    /// Distribution of the velocity.
+    pub phase: RandomPhase,
+    /// Source of random phases.
+    pub generator: Pcg64,
+}
+
+impl BaseMotion for AtRandomPhase {
+    #[inline]
+    fn motion(&self, _time: f64) -> Motion {
+        Motion::default()
+    }
+
+    #[inline]
+    fn first_hit(&self, _time: f64, flight: &Flight, _normal_up: f64) -> f64 {
+        disk_wall(flight)
+    }
+
+    #[inline]
+    fn velocity_at_impact(
+        &mut self,
+        _motion: Motion,
+        normal_velocity: f64,
+        normal_up: f64,
+        leaves: impl Fn(f64) -> bool,
+    ) -> Option<f64> {
+        self.phase
+            .sample_leaving(&mut self.generator, normal_velocity, normal_up, leaves)
+    }
+}

@@ -1,0 +1,68 @@
+//! Contact laws with the constants that a step needs.
+
+use crate::contact::{ContactLaws, LinearDashpot, TangentialSpring};
+
+use super::state::{Contact, Phase};
+
+/// Normal and tangential force.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Laws {
+    /// Normal force.
+    pub normal: LinearDashpot,
+    /// Tangential force.
+    pub tangential: TangentialSpring,
+    /// mu / k_t: stretch of the slipping spring over the normal force \[m/N\]; 0 if there is no tangential force.
+    pub slip_compliance: f64,
+}
+
+impl Laws {
+    /// With the constants of these laws.
+    pub fn new(laws: &ContactLaws) -> Self {
+        let ContactLaws { normal, tangential } = *laws;
+        let slip_compliance = if tangential.acts() {
+            tangential.friction / tangential.stiffness
+        } else {
+            0.0
+        };
+        Self {
+            normal,
+            tangential,
+            slip_compliance,
+        }
+    }
+
+    /// Whether there are tangential forces.
+    #[inline(always)]
+    pub fn has_friction(&self) -> bool {
+        self.slip_compliance > 0.0
+    }
+
+    /// Tangential over normal force while slipping.
+    #[inline(always)]
+    pub fn slip_share(&self) -> f64 {
+        if self.has_friction() {
+            self.tangential.friction
+        } else {
+            0.0
+        }
+    }
+
+    /// Normal force \[N\] before the cut-off at zero; its rate, if the arguments are the rates of those.
+    #[inline(always)]
+    pub fn normal_force(&self, overlap: f64, closing: f64) -> f64 {
+        self.normal.stiffness * overlap + self.normal.damping * closing
+    }
+
+    /// Energy \[J\] in both springs of a contact with this overlap \[m\].
+    pub fn elastic_energy(&self, contact: &Contact, overlap: f64) -> f64 {
+        let stretch = match contact.phase {
+            Phase::Open => return 0.0,
+            Phase::Unpressed => 0.0,
+            Phase::Stick => contact.kinematics.tangential_displacement - contact.reference,
+            Phase::SlipForward | Phase::SlipBackward => {
+                self.slip_compliance * self.normal_force(overlap, contact.kinematics.closing)
+            }
+        };
+        self.normal.energy(overlap) + self.tangential.energy(stretch)
+    }
+}

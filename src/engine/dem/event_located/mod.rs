@@ -1,0 +1,206 @@
+//! Method of fourth order in which every change of a contact happens at its own instant.
+//!
+//! Touch, release, yield and hold of a contact are located inside the step and integrated for this contact alone; the
+//! other contacts take the whole step. So the order survives contact events, and the cost of an event is that of one
+//! contact.
+//!
+//! A step predicts positions and velocities at its end. Then, twice, it takes the relative motion of each contact as the
+//! cubic between its ends, integrates its force along it (`contact_step`, `contact_events`), and corrects the ends by the
+//! impulses. Momentum is conserved to rounding: a contact gives both its bodies the same impulse.
+
+mod contact_events;
+mod contact_step;
+mod extrapolation;
+mod frame;
+mod impulse;
+mod kinematics;
+mod laws;
+mod neighbour_list;
+mod polynomial;
+mod state;
+mod step;
+
+use crate::drive::{Drive, Motion};
+use crate::error::are_sane;
+use crate::geometry::Disk;
+
+use super::candidates::Candidate;
+use super::fixed_grid::{State, Stepper};
+use super::setup::{Breakdown, Setup, SoftDisks};
+
+pub use state::{Contact, Disks, Kinematics, Phase};
+
+use kinematics::DiskArrays;
+use laws::Laws;
+use neighbour_list::{EndOfStep, NeighbourList};
+use step::{StepContext, StepScratch};
+
+/// Steps of fourth order with located contact events.
+#[derive(Debug, Clone)]
+pub struct EventStepper {
+    constants: SoftDisks,
+    laws: Laws,
+    /// 1/m, 1/m, 1/I of each disk.
+    inverse_masses: Vec<[f64; 3]>,
+    scratch: StepScratch,
+    neighbours: NeighbourList,
+}
+
+impl Stepper for EventStepper {
+    type Disks = Disks;
+
+    const WORK_OF_STEP: f64 = 1.0;
+
+    fn at_rest(setup: Setup, disks: &[Disk]) -> (Self, Disks) {
+        let inverse_masses = disks.iter().zip(&setup.masses).map(|(disk, mass)| {
+            let inertia = 0.5 * mass * disk.radius * disk.radius;
+            [1.0 / mass, 1.0 / mass, 1.0 / inertia]
+        });
+        let state = Disks {
+            positions: disks.iter().map(|disk| [disk.x, disk.y, 0.0]).collect(),
+            velocities: vec![[0.0; 3]; disks.len()],
+            remainders: vec![[[0.0; 3]; 2]; disks.len()],
+            wall_impulses: vec![[0.0; 2]; setup.walls.len()],
+            ..Disks::default()
+        };
+        let stepper = Self {
+            laws: Laws::new(&setup.laws),
+            inverse_masses: inverse_masses.collect(),
+            constants: SoftDisks::new(setup, disks),
+            scratch: StepScratch::default(),
+            neighbours: NeighbourList::default(),
+        };
+        (stepper, state)
+    }
+
+    fn constants(&self) -> &SoftDisks {
+        &self.constants
+    }
+
+    fn start<D>(&mut self, state: &mut State<D, Disks>) {
+        state.disks.remainders.fill([[0.0; 3]; 2]);
+        state.disks.pairs.clear();
+        state.disks.wall_contacts.clear();
+        self.neighbours.build(state, &self.constants);
+        let mut pairs = std::mem::take(&mut state.disks.pairs);
+        let mut wall_contacts = std::mem::take(&mut state.disks.wall_contacts);
+        let context = self.context(&state.disks, [state.base; 2], 0.0);
+        step::close_overlapping(&context, &mut pairs, &mut wall_contacts);
+        let contacts = pairs.iter().chain(&wall_contacts);
+        state.contacts = contacts.filter(|contact| contact.remembers()).count() as u32;
+        (state.disks.pairs, state.disks.wall_contacts) = (pairs, wall_contacts);
+    }
+
+    fn step<D: Drive>(&mut self, state: &mut State<D, Disks>, duration: f64, time: f64) -> Result<(), Breakdown> {
+        let base = state.drive.motion(time);
+        let end = EndOfStep {
+            time,
+            base: base.displacement,
+        };
+        self.neighbours.build_if_due(state, &self.constants, duration, end)?;
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let context = self.context(&state.disks, [state.base, base], duration);
+        let (pairs, wall_contacts) = (&state.disks.pairs, &state.disks.wall_contacts);
+        scratch.predict(&context, pairs, wall_contacts);
+        scratch.refine::<false>(&context, pairs, wall_contacts);
+        scratch.refine::<true>(&context, pairs, wall_contacts);
+        self.scratch = scratch;
+        self.commit(state, base, time)
+    }
+
+    fn motion<'s>(&self, disks: &'s Disks) -> (&'s [[f64; 3]], &'s [[f64; 3]]) {
+        (&disks.positions, &disks.velocities)
+    }
+
+    fn impulse_of_wall(&self, disks: &Disks, wall: usize) -> [f64; 2] {
+        disks.wall_impulses[wall]
+    }
+
+    fn elastic_energy(&self, disks: &Disks, base: Motion) -> f64 {
+        let arrays = self.arrays(disks);
+        let of_pair = |contact: &Contact| arrays.of_pair(contact.bodies()).overlap;
+        let of_wall = |contact: &Contact| {
+            let [disk, wall] = contact.bodies();
+            arrays.of_wall(disk, &self.constants.setup.walls[wall], &base).overlap
+        };
+        let energy_of_pair = |contact: &Contact| self.laws.elastic_energy(contact, of_pair(contact));
+        let energy_of_wall = |contact: &Contact| self.laws.elastic_energy(contact, of_wall(contact));
+        disks.pairs.iter().map(energy_of_pair).sum::<f64>()
+            + disks.wall_contacts.iter().map(energy_of_wall).sum::<f64>()
+    }
+
+    fn is_sane(disks: &Disks) -> bool {
+        let motion = disks.positions.iter().chain(&disks.velocities).flatten();
+        are_sane(motion.chain(disks.wall_impulses.iter().flatten()).copied())
+    }
+
+    fn fits<D>(&self, own: &Disks, state: &State<D, Disks>) -> bool {
+        let lengths = |disks: &Disks| {
+            [
+                disks.positions.len(),
+                disks.velocities.len(),
+                disks.remainders.len(),
+                disks.wall_impulses.len(),
+                disks.positions_at_list_build.len(),
+            ]
+        };
+        let disks = &state.disks;
+        let (count, walls) = (
+            self.constants.radii.len() as u32,
+            self.constants.setup.walls.len() as u32,
+        );
+        let pair_fits = |pair: &Contact| pair.first < pair.second && pair.second < count && pair.is_sane();
+        let wall_fits = |contact: &Contact| contact.first < count && contact.second < walls && contact.is_sane();
+        lengths(disks) == lengths(own)
+            && disks.pairs.iter().all(pair_fits)
+            && disks.wall_contacts.iter().all(wall_fits)
+            && disks.list_margin > 0.0
+            && are_sane(disks.positions_at_list_build.iter().flatten().copied())
+            && are_sane(disks.remainders.iter().flatten().flatten().copied())
+            && are_sane([disks.base_at_list_build, disks.list_margin])
+    }
+}
+
+impl EventStepper {
+    /// Makes the end of the step the state.
+    fn commit<D>(&mut self, state: &mut State<D, Disks>, base: Motion, time: f64) -> Result<(), Breakdown> {
+        let (disks, scratch) = (&mut state.disks, &mut self.scratch);
+        let sums = scratch.sums;
+        self.constants.check_overlap(sums.deepest, time)?;
+        scratch.commit(&mut disks.pairs, &mut disks.wall_contacts);
+        std::mem::swap(&mut disks.positions, &mut scratch.positions);
+        std::mem::swap(&mut disks.velocities, &mut scratch.velocities);
+        std::mem::swap(&mut disks.remainders, &mut scratch.remainders);
+        for (sum, new) in disks.wall_impulses.iter_mut().zip(&scratch.wall_impulses) {
+            sum[0] += new[0];
+            sum[1] += new[1];
+        }
+        disks.changes += u64::from(sums.changes);
+        state.base = base;
+        state.energy_input += sums.work;
+        state.energy_lost += sums.lost;
+        state.contacts = sums.contacts;
+        Ok(())
+    }
+
+    fn arrays<'s>(&'s self, disks: &'s Disks) -> DiskArrays<'s> {
+        DiskArrays {
+            positions: &disks.positions,
+            velocities: &disks.velocities,
+            radii: &self.constants.radii,
+        }
+    }
+
+    fn context<'s>(&'s self, disks: &'s Disks, base: [Motion; 2], step: f64) -> StepContext<'s> {
+        StepContext {
+            laws: &self.laws,
+            inverse_masses: &self.inverse_masses,
+            walls: &self.constants.setup.walls,
+            gravity: self.constants.setup.gravity,
+            start: self.arrays(disks),
+            base,
+            remainders: &disks.remainders,
+            step,
+        }
+    }
+}

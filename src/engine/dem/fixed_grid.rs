@@ -1,0 +1,265 @@
+//! A state on a fixed grid of times, advanced by a [`Stepper`].
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use crate::drive::{Drive, Motion};
+use crate::engine::{Engine, WorkBudget};
+use crate::error::are_sane;
+use crate::geometry::Disk;
+
+use super::setup::{Breakdown, Setup, SoftDisks};
+
+/// State at one point of the grid of time.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+pub struct State<D, M> {
+    /// Steps done: the time is `start + steps * time_step`, never a running sum.
+    pub steps: u64,
+    /// Motion of the base as a function of time.
+    pub drive: D,
+    /// Motion of the base now.
+    pub base: Motion,
+    /// Disks and their contacts.
+    pub disks: M,
+    /// Work \[J\] that the base has done on the disks.
+    pub energy_input: f64,
+    /// Energy \[J\] lost in dashpots and by slip.
+    pub energy_lost: f64,
+    /// Closed contacts now.
+    pub contacts: u32,
+}
+
+impl<D: Clone, M: Clone> Clone for State<D, M> {
+    fn clone(&self) -> Self {
+        Self {
+            drive: self.drive.clone(),
+            disks: self.disks.clone(),
+            ..*self
+        }
+    }
+
+    /// Copies without allocating where there is room.
+    fn clone_from(&mut self, source: &Self) {
+        self.drive.clone_from(&source.drive);
+        self.disks.clone_from(&source.disks);
+        Self {
+            steps: self.steps,
+            base: self.base,
+            energy_input: self.energy_input,
+            energy_lost: self.energy_lost,
+            contacts: self.contacts,
+            ..
+        } = *source;
+    }
+}
+
+/// How soft disks are advanced by one step.
+pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
+    /// Disks and their contacts: what changes with time beside the base.
+    type Disks: std::fmt::Debug + Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static;
+
+    /// Work of a step of one disk, in units of [`WorkBudget`].
+    const WORK_OF_STEP: f64;
+
+    /// `disks` at rest, without contacts yet.
+    fn at_rest(setup: Setup, disks: &[Disk]) -> (Self, Self::Disks);
+
+    /// What stays constant.
+    fn constants(&self) -> &SoftDisks;
+
+    /// Starts from positions and velocities that were set from outside: overlapping disks have just touched.
+    fn start<D>(&mut self, state: &mut State<D, Self::Disks>);
+
+    /// Advances by one step of `duration` \[s\] that ends at `time` \[s\]; does not count it.
+    ///
+    /// # Errors
+    /// The step cannot be done. The state is then of no use.
+    fn step<D: Drive>(&mut self, state: &mut State<D, Self::Disks>, duration: f64, time: f64) -> Result<(), Breakdown>;
+
+    /// Advances on the grid until `target` steps are done.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    fn run<D: Drive>(&mut self, state: &mut State<D, Self::Disks>, target: u64) -> Result<(), Breakdown> {
+        while state.steps < target {
+            let time = self.constants().time_of(state.steps + 1);
+            self.step(state, self.constants().setup.time_step, time)?;
+            state.steps += 1;
+        }
+        Ok(())
+    }
+
+    /// Positions (x, y, angle) and velocities of the disks.
+    fn motion<'s>(&self, disks: &'s Self::Disks) -> (&'s [[f64; 3]], &'s [[f64; 3]]);
+
+    /// Impulse (x, y) \[N.s\] that the wall has given to the disks since the start.
+    fn impulse_of_wall(&self, disks: &Self::Disks, wall: usize) -> [f64; 2];
+
+    /// Energy \[J\] in the springs of closed contacts.
+    fn elastic_energy(&self, disks: &Self::Disks, base: Motion) -> f64;
+
+    /// Whether all numbers of the motion are finite and far from overflow.
+    fn is_sane(disks: &Self::Disks) -> bool;
+
+    /// Whether `state` has the lengths, indices and contacts of a state of this run, of which `own` is one.
+    fn fits<D>(&self, own: &Self::Disks, state: &State<D, Self::Disks>) -> bool;
+}
+
+/// Grid points closer than this fraction of a time step to a time count as that time.
+const SNAP: f64 = 1e-6;
+
+/// Soft disks on the grid of times `start + n time_step`.
+///
+/// Guarantees: the trajectory lives on the grid alone. An observation between two grid points takes one short step on a
+/// copy, so that when and how often the disks are observed changes no bit of what follows.
+#[derive(Debug, Clone)]
+pub struct FixedGrid<S: Stepper, D> {
+    pub(super) stepper: S,
+    state: State<D, S::Disks>,
+    /// The state at the time last asked for, if that is no grid point.
+    between: Option<State<D, S::Disks>>,
+    /// Memory for the next such state.
+    spare: Option<State<D, S::Disks>>,
+    backup: State<D, S::Disks>,
+}
+
+impl<S: Stepper, D: Drive> FixedGrid<S, D> {
+    /// Disks at rest where they are, at `setup.start_time`, under the drive.
+    pub fn new(setup: Setup, disks: &[Disk], drive: D) -> Self {
+        let base = drive.motion(setup.start_time);
+        let (mut stepper, disks) = S::at_rest(setup, disks);
+        let mut state = State {
+            steps: 0,
+            drive,
+            base,
+            disks,
+            energy_input: 0.0,
+            energy_lost: 0.0,
+            contacts: 0,
+        };
+        stepper.start(&mut state);
+        Self {
+            stepper,
+            backup: state.clone(),
+            state,
+            between: None,
+            spare: None,
+        }
+    }
+
+    /// Changes positions and velocities from outside (initial states of tests and studies) and starts afresh from there.
+    pub fn set_motion(&mut self, change: impl FnOnce(&mut S::Disks)) {
+        change(&mut self.state.disks);
+        self.stepper.start(&mut self.state);
+        self.between = None;
+    }
+
+    /// The drive, to be given new inputs.
+    pub fn drive_mut(&mut self) -> &mut D {
+        &mut self.state.drive
+    }
+
+    /// Observes at `time` \[s\]: takes one short step on a copy, unless `time` is a grid point.
+    fn sample_at(&mut self, time: f64) -> Result<(), Breakdown> {
+        let ahead = time - self.time();
+        if ahead.abs() <= SNAP * self.setup().time_step {
+            check::<S, D>(&self.state, time)?;
+            self.spare = self.between.take().or(self.spare.take());
+            return Ok(());
+        }
+        let mut copy = self.spare.take().unwrap_or_else(|| self.state.clone());
+        copy.clone_from(&self.state);
+        let outcome = self.stepper.step(&mut copy, ahead, time);
+        let outcome = outcome.and_then(|()| check::<S, D>(&copy, time));
+        self.spare = if outcome.is_ok() {
+            self.between.replace(copy)
+        } else {
+            Some(copy)
+        };
+        outcome
+    }
+}
+
+impl<S: Stepper, D> FixedGrid<S, D> {
+    /// The state at the time last asked for.
+    pub fn now(&self) -> &State<D, S::Disks> {
+        self.between.as_ref().unwrap_or(&self.state)
+    }
+
+    /// What stays constant.
+    pub fn setup(&self) -> &Setup {
+        &self.stepper.constants().setup
+    }
+
+    /// Radii \[m\].
+    pub fn radii(&self) -> &[f64] {
+        &self.stepper.constants().radii
+    }
+
+    /// Time of the present grid point \[s\].
+    pub fn time(&self) -> f64 {
+        self.stepper.constants().time_of(self.state.steps)
+    }
+}
+
+impl<S: Stepper, D: Drive> Engine for FixedGrid<S, D> {
+    type State = State<D, S::Disks>;
+    type Stop = Breakdown;
+
+    fn advance_within(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<(), Breakdown> {
+        let elapsed = (end_time - self.setup().start_time) / self.setup().time_step;
+        let target = (elapsed + SNAP).floor().max(0.0);
+        let steps = target - self.state.steps as f64;
+        let work_of_step = S::WORK_OF_STEP * self.radii().len() as f64;
+        if !budget.spend((steps.max(0.0) * work_of_step) as u64) {
+            let (time, most) = (self.time(), budget.most() as f64 / work_of_step);
+            return Err(Breakdown::TooManySteps { time, steps, most });
+        }
+        self.backup.clone_from(&self.state);
+        let outcome = self.stepper.run(&mut self.state, target as u64);
+        let outcome = outcome.and_then(|()| self.sample_at(end_time));
+        if outcome.is_err() {
+            std::mem::swap(&mut self.state, &mut self.backup);
+        }
+        outcome
+    }
+
+    fn state(&self) -> &Self::State {
+        &self.state
+    }
+
+    fn fits(&self, state: &Self::State, time: f64) -> bool {
+        let Setup {
+            time_step, start_time, ..
+        } = *self.setup();
+        let ahead = time - self.stepper.constants().time_of(state.steps);
+        let rounding = 4.0 * f64::EPSILON * (time.abs() + start_time.abs());
+        (-time_step - rounding..=2.0 * time_step + rounding).contains(&ahead)
+            && self.stepper.fits(&self.state.disks, state)
+    }
+
+    fn restore(&mut self, state: &Self::State, time: f64) -> Result<(), Breakdown> {
+        self.backup.clone_from(state);
+        std::mem::swap(&mut self.state, &mut self.backup);
+        let outcome = self.sample_at(time);
+        if outcome.is_err() {
+            std::mem::swap(&mut self.state, &mut self.backup);
+        }
+        outcome
+    }
+}
+
+/// Comparisons with what is no number are false and trip no other check.
+fn check<S: Stepper, D>(state: &State<D, S::Disks>, time: f64) -> Result<(), Breakdown> {
+    let Motion {
+        displacement,
+        velocity,
+        acceleration,
+    } = state.base;
+    let base = [displacement, velocity, acceleration];
+    if S::is_sane(&state.disks) && are_sane(base) && are_sane([state.energy_input, state.energy_lost]) {
+        Ok(())
+    } else {
+        Err(Breakdown::NotFinite { time })
+    }
+}

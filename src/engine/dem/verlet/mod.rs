@@ -1,0 +1,307 @@
+//! One evaluation of the forces a step, at predicted positions and velocities: velocity Verlet and Gear's method.
+//!
+//! Momentum is conserved to rounding: the impulses of the walls obey the recursion of the momenta.
+
+mod contact_laws;
+pub(super) mod contacts;
+mod forces;
+mod gear;
+mod integrator;
+mod neighbour_list;
+mod state;
+
+use std::marker::PhantomData;
+
+use crate::drive::{Drive, Motion};
+use crate::error::are_sane;
+use crate::geometry::Disk;
+
+use super::cell_grid::Cloud;
+use super::fixed_grid::{State, Stepper};
+use super::setup::{Breakdown, Setup, SoftDisks};
+
+pub use contacts::{Pair, SpringMemory, WallContact};
+pub use gear::Gear5;
+pub use integrator::{Coordinates, Integrator, VelocityVerlet};
+pub use state::Disks;
+
+use contact_laws::{ForceSums, LaneLaws, LaneSums};
+use forces::{DiskArrays, ForceArrays, MovingWalls, pair_forces, wall_forces};
+use neighbour_list::{NeighbourList, farthest_squared, inner_margin};
+
+/// Steps by the integrator I.
+#[derive(Debug, Clone)]
+pub struct PredictorCorrector<I> {
+    constants: SoftDisks,
+    /// 1/m, 1/m, R/I of each disk, then 1 for each impulse of a wall.
+    inverse_mass: Vec<f64>,
+    /// Weight as a flat force.
+    weight: Vec<f64>,
+    /// Flat: x, y and torque over radius of each disk, then x and y of each wall \[N\].
+    force: Vec<f64>,
+    /// Radius times angle of each disk \[m\]. Scratch memory of an evaluation.
+    arc_lengths: Vec<f64>,
+    neighbours: NeighbourList,
+    integrator: PhantomData<I>,
+}
+
+impl<I: Integrator> Stepper for PredictorCorrector<I> {
+    type Disks = Disks;
+
+    const WORK_OF_STEP: f64 = 0.1;
+
+    fn at_rest(setup: Setup, disks: &[Disk]) -> (Self, Disks) {
+        let (mut position, mut inverse_mass, mut weight) = (Vec::new(), Vec::new(), Vec::new());
+        for (disk, mass) in disks.iter().zip(&setup.masses) {
+            position.extend([disk.x, disk.y, 0.0]);
+            // The moment of inertia is m R^2 / 2, the force that turns one along the surface.
+            inverse_mass.extend([1.0 / mass, 1.0 / mass, 2.0 / (mass * disk.radius)]);
+            weight.extend([0.0, -mass * setup.gravity, 0.0]);
+        }
+        let length = position.len() + 2 * setup.walls.len();
+        position.resize(length, 0.0);
+        inverse_mass.resize(length, 1.0);
+        weight.resize(length, 0.0);
+        let constants = SoftDisks::new(setup, disks);
+        let stepper = Self {
+            inverse_mass,
+            weight,
+            force: vec![0.0; length],
+            arc_lengths: vec![0.0; disks.len()],
+            neighbours: NeighbourList::new(constants.smallest_radius),
+            constants,
+            integrator: PhantomData,
+        };
+        let disks = Disks {
+            position,
+            velocity: vec![0.0; length],
+            acceleration: vec![0.0; length],
+            higher: vec![0.0; length * I::HIGHER_DERIVATIVES],
+            ..Disks::default()
+        };
+        (stepper, disks)
+    }
+
+    fn constants(&self) -> &SoftDisks {
+        &self.constants
+    }
+
+    fn start<D>(&mut self, state: &mut State<D, Disks>) {
+        self.build_list(state);
+        let sums = self.evaluate(state, 0.0);
+        let accelerations = state.disks.acceleration.iter_mut();
+        for (acceleration, (force, inverse)) in accelerations.zip(self.force.iter().zip(&self.inverse_mass)) {
+            *acceleration = force * inverse;
+        }
+        state.disks.dissipated_power = sums.dissipated_power;
+        state.contacts = sums.contacts;
+    }
+
+    fn step<D: Drive>(&mut self, state: &mut State<D, Disks>, duration: f64, time: f64) -> Result<(), Breakdown> {
+        I::predict(coordinates(&mut state.disks), duration);
+        self.evaluate_prediction(state, duration, time)?;
+        I::correct(coordinates(&mut state.disks), &self.force, &self.inverse_mass, duration);
+        Ok(())
+    }
+
+    fn run<D: Drive>(&mut self, state: &mut State<D, Disks>, target: u64) -> Result<(), Breakdown> {
+        if state.steps >= target {
+            return Ok(());
+        }
+        let step = self.constants.setup.time_step;
+        I::predict(coordinates(&mut state.disks), step);
+        loop {
+            self.evaluate_prediction(state, step, self.constants.time_of(state.steps + 1))?;
+            state.steps += 1;
+            let coordinates = coordinates(&mut state.disks);
+            if state.steps == target {
+                I::correct(coordinates, &self.force, &self.inverse_mass, step);
+                return Ok(());
+            }
+            I::correct_and_predict(coordinates, &self.force, &self.inverse_mass, step);
+        }
+    }
+
+    fn motion<'s>(&self, disks: &'s Disks) -> (&'s [[f64; 3]], &'s [[f64; 3]]) {
+        let count = self.constants.radii.len();
+        (&disks.positions()[..count], &disks.velocities()[..count])
+    }
+
+    fn impulse_of_wall(&self, disks: &Disks, wall: usize) -> [f64; 2] {
+        let first = 3 * self.constants.radii.len() + 2 * wall;
+        [disks.velocity[first], disks.velocity[first + 1]]
+    }
+
+    fn elastic_energy(&self, disks: &Disks, base: Motion) -> f64 {
+        let (positions, setup) = (disks.positions(), &self.constants.setup);
+        let energy = |overlap: f64, spring: &SpringMemory| {
+            setup.laws.normal.energy(overlap.max(0.0)) + setup.laws.tangential.energy(spring.stretch)
+        };
+        let mut elastic = 0.0;
+        for pair in &disks.pairs {
+            let (a, b) = (positions[pair.first as usize], positions[pair.second as usize]);
+            elastic += energy(pair.radius_sum - (a[0] - b[0]).hypot(a[1] - b[1]), &pair.spring);
+        }
+        for contact in &disks.wall_contacts {
+            let [x, y, _] = positions[contact.disk as usize];
+            let distance = setup.walls[contact.wall as usize].distance([x, y], base.displacement);
+            elastic += energy(self.constants.radii[contact.disk as usize] - distance, &contact.spring);
+        }
+        elastic
+    }
+
+    fn is_sane(disks: &Disks) -> bool {
+        let vectors = disks.position.iter().chain(&disks.velocity).chain(&disks.acceleration);
+        are_sane(vectors.copied().chain([disks.base_force, disks.dissipated_power]))
+    }
+
+    fn fits<D>(&self, own: &Disks, state: &State<D, Disks>) -> bool {
+        let lengths = |disks: &Disks| {
+            [
+                disks.position.len(),
+                disks.velocity.len(),
+                disks.acceleration.len(),
+                disks.higher.len(),
+                disks.positions_at_list_build.len(),
+            ]
+        };
+        let (disks, radii) = (&state.disks, &self.constants.radii);
+        let (count, walls) = (radii.len() as u32, self.constants.setup.walls.len() as u32);
+        let pair_fits = |pair: &Pair| {
+            pair.first < pair.second
+                && pair.second < count
+                && pair.radius_sum == radii[pair.first as usize] + radii[pair.second as usize]
+                && pair.spring.is_sane()
+        };
+        let wall_fits =
+            |contact: &WallContact| contact.disk < count && contact.wall < walls && contact.spring.is_sane();
+        let build = disks.positions_at_list_build.iter().flatten().copied();
+        lengths(disks) == lengths(own)
+            && disks.pairs.iter().all(pair_fits)
+            && disks.wall_contacts.iter().all(wall_fits)
+            // The count goes from step to step by the contacts that close and open.
+            && (!self.constants.setup.laws.tangential.acts() || state.contacts == disks.closed_contacts())
+            && disks.step_of_list_build <= state.steps
+            && are_sane(build.chain([disks.base_at_list_build]))
+            && (0.0..=self.constants.smallest_radius).contains(&disks.list_margin)
+    }
+}
+
+impl<I: Integrator> PredictorCorrector<I> {
+    /// What lies between prediction and correction of a step: base, neighbours, forces and the balance of energy.
+    fn evaluate_prediction<D: Drive>(
+        &mut self,
+        state: &mut State<D, Disks>,
+        duration: f64,
+        time: f64,
+    ) -> Result<(), Breakdown> {
+        let base_before = state.base.displacement;
+        state.base = state.drive.motion(time);
+        self.build_list_if_due(state, time)?;
+
+        let base_force_before = state.disks.base_force;
+        let sums = self.evaluate(state, duration);
+        self.constants.check_overlap(sums.deepest, time)?;
+        let disks = &mut state.disks;
+        state.energy_input += 0.5 * (base_force_before + disks.base_force) * (state.base.displacement - base_before);
+        state.energy_lost += 0.5 * duration * (disks.dissipated_power + sums.dissipated_power) + sums.slip_heat;
+        disks.dissipated_power = sums.dissipated_power;
+        state.contacts = sums.contacts;
+        Ok(())
+    }
+
+    /// Forces at the present positions, velocities and base motion, into `self.force`. Compiled with tangential springs and
+    /// without, so that the loops hold no branch on it.
+    fn evaluate<D>(&mut self, state: &mut State<D, Disks>, duration: f64) -> ForceSums {
+        if self.constants.setup.laws.tangential.acts() {
+            self.evaluate_with::<true>(&mut state.disks, state.base, duration, state.contacts)
+        } else {
+            self.evaluate_with::<false>(&mut state.disks, state.base, duration, state.contacts)
+        }
+    }
+
+    #[inline(never)]
+    fn evaluate_with<const SPRING: bool>(
+        &mut self,
+        disks: &mut Disks,
+        base: Motion,
+        duration: f64,
+        closed_before: u32,
+    ) -> ForceSums {
+        let (setup, radii) = (&self.constants.setup, &self.constants.radii);
+        self.force.copy_from_slice(&self.weight);
+        let (on_disks, from_walls) = self.force.split_at_mut(3 * radii.len());
+        let mut forces = ForceArrays {
+            on_disks: on_disks.as_chunks_mut().0,
+            from_walls: from_walls.as_chunks_mut().0,
+        };
+        let (positions, velocities) = (disks.position.as_chunks().0, disks.velocity.as_chunks().0);
+        if SPRING {
+            let turns = radii.iter().zip(positions);
+            for (arc_length, (radius, position)) in self.arc_lengths.iter_mut().zip(turns) {
+                *arc_length = radius * position[2];
+            }
+        }
+        let arrays = DiskArrays::new(positions, velocities, radii, &self.arc_lengths);
+        let laws = LaneLaws::new(&setup.laws, duration);
+        let mut sums = LaneSums::default();
+        pair_forces::<SPRING>(&laws, &mut disks.pairs, arrays, forces.on_disks, &mut sums);
+        let walls = MovingWalls {
+            walls: &setup.walls,
+            base,
+        };
+        wall_forces::<SPRING>(&laws, &mut disks.wall_contacts, walls, arrays, &mut forces, &mut sums);
+        let vertical = forces.from_walls.iter().zip(&setup.walls);
+        disks.base_force = vertical.map(|(force, wall)| wall.follows_base * force[1]).sum();
+        sums.total::<SPRING>(closed_before)
+    }
+
+    /// Builds the neighbour list anew if a disk or the base has moved by half the margin since it was built.
+    fn build_list_if_due<D>(&mut self, state: &mut State<D, Disks>, time: f64) -> Result<(), Breakdown> {
+        let disks = &state.disks;
+        let farthest = farthest_squared(disks.positions(), &disks.positions_at_list_build);
+        let base_moved = (state.base.displacement - disks.base_at_list_build).abs();
+        let limit = 0.5 * disks.list_margin;
+        if farthest < limit * limit && base_moved < limit {
+            return Ok(());
+        }
+        if state.steps <= disks.step_of_list_build + 1 {
+            self.constants.check_distance(farthest.sqrt(), time)?;
+        }
+        self.build_list(state);
+        Ok(())
+    }
+
+    fn build_list<D>(&mut self, state: &mut State<D, Disks>) {
+        let (count, setup) = (self.constants.radii.len(), &self.constants.setup);
+        let disks = &mut state.disks;
+        disks.positions_at_list_build.clear();
+        let positions = &disks.position.as_chunks().0[..count];
+        disks.positions_at_list_build.extend_from_slice(positions);
+        disks.base_at_list_build = state.base.displacement;
+        disks.step_of_list_build = state.steps;
+        let velocities = disks.velocities()[..count].iter();
+        let squares = velocities.map(|[vx, vy, _]| vx * vx + vy * vy);
+        let fastest = squares.fold(0.0, f64::max).sqrt().max(state.base.velocity.abs());
+        disks.list_margin = inner_margin(fastest, setup.time_step, self.constants.smallest_radius);
+        let cloud = Cloud {
+            positions: &disks.positions_at_list_build,
+            radii: &self.constants.radii,
+            margin: disks.list_margin,
+        };
+        self.neighbours.find_pairs(cloud, &mut disks.pairs);
+        self.neighbours
+            .find_wall_contacts(cloud, &setup.walls, disks.base_at_list_build, &mut disks.wall_contacts);
+        // A closed contact whose disks have jumped apart is not in the list any more.
+        state.contacts = disks.closed_contacts();
+    }
+}
+
+fn coordinates(disks: &mut Disks) -> Coordinates<'_> {
+    Coordinates {
+        position: &mut disks.position,
+        velocity: &mut disks.velocity,
+        acceleration: &mut disks.acceleration,
+        higher: &mut disks.higher,
+    }
+}

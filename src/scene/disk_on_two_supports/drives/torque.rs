@@ -1,0 +1,116 @@
+//! Torques: held or with a rate, as the importer gives them, and harmonic.
+
+use std::f64::consts::TAU;
+
+use super::DiskOnTwoSupportsDrive;
+use crate::drive::excitation::{HarmonicTorque, HeldTorque};
+use crate::scene::disk_on_two_supports::DiskOnTwoSupportsScene;
+use crate::scene::disks_on_base::names;
+use crate::scene::{Row, TIME, Unit, Values};
+
+/// Terminal of the input torque.
+const TERMINAL: &str = "torque";
+
+impl DiskOnTwoSupportsDrive for HeldTorque {
+    const NAME: &'static str = "input";
+    const IDENTIFIER: &'static str = "jostle_three_disk";
+    const DESCRIPTION: &'static str = "Disk on two supports that is turned by a torque";
+    const TERMINAL: Option<&'static str> = Some(TERMINAL);
+
+    fn rows<M>() -> Vec<Row<M>> {
+        vec![
+            Row::input(
+                "torque",
+                Unit::NEWTON_METRE,
+                0.1,
+                "Torque on the disk, counter-clockwise, at the present communication point",
+            )
+            .with_derivative("torque.rate")
+            .in_terminal(TERMINAL, "torque"),
+            Row::input(
+                "torque.rate",
+                Unit::NEWTON_METRE_PER_SECOND,
+                1.0,
+                "Rate of the torque during the next communication step; 0 holds the torque",
+            )
+            .in_terminal(TERMINAL, "rate"),
+        ]
+    }
+
+    fn period(_values: &Values) -> Option<f64> {
+        None
+    }
+
+    fn new(start_time: f64, _time_step: f64, values: &Values) -> Self {
+        Self {
+            torque: values.real("torque"),
+            rate: values.real("torque.rate"),
+            since: start_time,
+        }
+    }
+
+    fn set_target(&mut self, time: f64, values: &Values) -> bool {
+        Self::set_target(self, time, values.real("torque"), values.real("torque.rate"))
+    }
+
+    fn continues(&self, _other: &Self) -> bool {
+        true
+    }
+}
+
+impl DiskOnTwoSupportsDrive for HarmonicTorque {
+    const NAME: &'static str = "harmonic-torque";
+    const IDENTIFIER: &'static str = "jostle_three_disk_harmonic_torque";
+    const DESCRIPTION: &'static str = "Disk on two supports that is turned by a harmonic torque";
+    const PERIOD: &'static [&'static str] = &["torque.angular_frequency"];
+
+    fn rows<M>() -> Vec<Row<M>> {
+        vec![
+            Row::parameter(
+                "torque.amplitude",
+                Unit::NEWTON_METRE,
+                0.0..=1e9,
+                0.113,
+                "Amplitude A_e of the torque A_e sin(omega_e t)",
+            ),
+            Row::parameter(
+                "torque.angular_frequency",
+                Unit::RADIAN_PER_SECOND,
+                1e-6..=1e9,
+                1.0,
+                "Angular frequency omega_e of the torque; slow is far below sqrt(k_n / m)",
+            ),
+        ]
+    }
+
+    fn outputs() -> Vec<Row<DiskOnTwoSupportsScene<Self>>> {
+        let applied = Row::output(
+            "torque.applied",
+            Unit::NEWTON_METRE,
+            0.1,
+            "Torque on the disk now, counter-clockwise",
+            |scene: &DiskOnTwoSupportsScene<Self>| scene.engine.driven().0,
+        );
+        vec![applied.depending_on(&names(&[&[TIME, "torque.amplitude", "torque.angular_frequency"]]))]
+    }
+
+    fn period(values: &Values) -> Option<f64> {
+        Some(TAU / values.real("torque.angular_frequency"))
+    }
+
+    /// Whole periods.
+    fn batch(values: &Values) -> Option<f64> {
+        Self::period(values)
+    }
+
+    fn new(_start_time: f64, _time_step: f64, values: &Values) -> Self {
+        Self {
+            amplitude: values.real("torque.amplitude"),
+            angular_frequency: values.real("torque.angular_frequency"),
+        }
+    }
+
+    fn continues(&self, other: &Self) -> bool {
+        self == other
+    }
+}

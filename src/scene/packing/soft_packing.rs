@@ -1,0 +1,283 @@
+//! The packing of soft disks: rows, steps and states for any engine of soft disks.
+
+use serde::{Deserialize, Serialize};
+
+use crate::drive::Motion;
+use crate::engine::dem::{FixedGrid, Setup, State, TimeStepLimits};
+use crate::engine::{DiskMotion, Engine, MOST_WORK_IN_A_CALL, WorkBudget};
+use crate::error::are_sane;
+use crate::geometry::{Disk, Vector2};
+use crate::scene::base_drive::BaseDrive;
+use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, names, radii};
+use crate::scene::soft_disks::{chosen_time_step, contact_laws, refused_step};
+use crate::scene::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, info};
+
+use super::initial_packing::{self, NAME};
+use super::rows::{self, AtStart};
+use super::{equations, soft::SoftMethod};
+
+/// Index of the vibrating floor among the walls.
+const FLOOR: usize = 0;
+
+/// What the largest time step depends on besides the radii and the drive.
+const STIFFEST: &[&str] = &[
+    "disk.surface_density",
+    "contact.normal_stiffness",
+    "contact.stiffness_ratio",
+    "contact.normal_damping",
+    "contact.friction",
+];
+
+/// Disks in a box of two walls and a floor that vibrates with the drive D, advanced by the method S.
+#[derive(Debug)]
+pub struct SoftPacking<S: SoftMethod, D> {
+    engine: FixedGrid<S, D>,
+    limits: TimeStepLimits,
+    /// Work that one call may do.
+    most_work: u64,
+    report: StepReport,
+    /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
+    start_energy: f64,
+}
+
+/// State of a [`SoftPacking`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PackingState<E> {
+    /// Disks, contacts and base on the grid of time.
+    pub engine: E,
+    /// The last communication step.
+    pub report: StepReport,
+    /// Total energy at the start \[J\].
+    pub start_energy: f64,
+}
+
+impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
+    /// A packing of given `disks` at rest, in a box of the width that `values` say.
+    ///
+    /// # Errors
+    /// A time step that the contacts do not allow, by name.
+    pub fn of_disks(disks: &[Disk], start_time: f64, values: &Values) -> Result<Self> {
+        let drive = D::new(start_time, values)?;
+        let laws = contact_laws(values);
+        let masses = initial_packing::masses(disks, values);
+        let limits = S::limits(&laws, &masses, drive.frequency(), values);
+        // The packing starts on the floor, wherever the drive has it.
+        let lift = drive.motion(start_time).displacement;
+        let disks: Vec<Disk> = disks.iter().map(|disk| disk.raised(lift)).collect();
+        let setup = Setup {
+            laws,
+            walls: initial_packing::walls(values),
+            masses,
+            gravity: values.real("gravity"),
+            time_step: chosen_time_step(values, &limits)?,
+            start_time,
+        };
+        let mut packing = Self {
+            engine: FixedGrid::new(setup, &disks, drive),
+            limits,
+            most_work: MOST_WORK_IN_A_CALL,
+            report: StepReport::at_start(start_time),
+            start_energy: 0.0,
+        };
+        packing.start_energy = packing.energy();
+        Ok(packing)
+    }
+
+    /// The engine, to observe everything that is no output.
+    pub fn engine(&self) -> &FixedGrid<S, D> {
+        &self.engine
+    }
+
+    /// Kinetic, potential and elastic energy \[J\] together.
+    fn energy(&self) -> f64 {
+        let energies = self.engine.energies();
+        energies.kinetic + energies.potential + energies.elastic
+    }
+
+    fn time_steps() -> [Row<Self>; 2] {
+        let frequency = D::FREQUENCY;
+        let choice = &["tolerance", "time_step"];
+        let step = |name, nominal, what, read| Row::calculated(name, Unit::SECOND, nominal, what, read);
+        [
+            step("chosen_time_step", 1e-5, "Time step in use", |packing: &Self| {
+                packing.engine.setup().time_step
+            })
+            .depending_on(&names(&[&rows::RADII, STIFFEST, frequency, choice])),
+            step(
+                "largest_time_step",
+                1e-4,
+                "Largest time step that would be accepted",
+                |packing| packing.limits.largest,
+            )
+            .depending_on(&names(&[&rows::RADII, STIFFEST, frequency])),
+        ]
+    }
+
+    /// Energies, and the closed contacts. Whether disks touch at the start, and how much energy that is, is a matter of
+    /// rounding and thus of where the base is.
+    fn energies_and_contacts(at_start: &AtStart) -> [Row<Self>; 7] {
+        let energy = |name, description, read| Row::output(name, Unit::JOULE, 1e-3, description, read);
+        let touching = names(&[rows::PLACES, D::DISPLACEMENT_AT_START]);
+        let pressed = names(&[&touching, &["contact.normal_stiffness"]]);
+        [
+            energy(
+                "energy.kinetic",
+                "Kinetic energy of translation and rotation",
+                |packing: &Self| packing.engine.kinetic_energy(),
+            ),
+            energy(
+                "energy.potential",
+                "Energy in gravity, zero at the height of the base at rest",
+                |packing| packing.engine.potential_energy(),
+            )
+            .depending_on(&at_start.potential_energy),
+            energy(
+                "energy.elastic",
+                "Energy in the normal and tangential springs of closed contacts",
+                |packing| packing.engine.elastic_energy(),
+            )
+            .depending_on(&pressed),
+            energy(
+                "energy.input",
+                "Work done by the base on the disks since the start",
+                |packing| packing.engine.observables().energy_input,
+            ),
+            energy(
+                "energy.lost",
+                "Energy lost in the dashpots and by slip since the start",
+                |packing| packing.engine.observables().energy_lost,
+            ),
+            energy(
+                "energy.residual",
+                "Change of energy less work of the base plus losses: the integration's own error",
+                |packing| {
+                    let now = packing.engine.observables();
+                    packing.energy() - packing.start_energy - now.energy_input + now.energy_lost
+                },
+            ),
+            Row::count_output(
+                "contacts",
+                "Closed contacts, with the walls and the base",
+                |packing: &Self| i64::from(packing.engine.observables().contacts),
+            )
+            .depending_on(&touching),
+        ]
+    }
+}
+
+impl<S: SoftMethod, D: BaseDrive> DisksOnBase for SoftPacking<S, D> {
+    fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    fn disk_count(&self) -> usize {
+        self.engine.radii().len()
+    }
+
+    fn disk_at(&self, _time: f64, disk: usize) -> DiskMotion {
+        let now = self.engine.observables();
+        let ([x, y, angle], [vx, vy, angular_velocity]) = (now.positions[disk], now.velocities[disk]);
+        DiskMotion {
+            position: Vector2::new(x, y),
+            velocity: Vector2::new(vx, vy),
+            angle,
+            angular_velocity,
+        }
+    }
+
+    fn base_at(&self, _time: f64) -> Motion {
+        self.engine.observables().base
+    }
+}
+
+impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
+    type State = PackingState<State<D, S::Disks>>;
+
+    fn info() -> ModelInfo {
+        SceneInfo {
+            scene: NAME,
+            identifier: S::IDENTIFIERS[usize::from(!D::STEERED)],
+            engine: S::NAME,
+            drive: D::NAME,
+            description: S::DESCRIPTION,
+            equations: equations::HTML,
+            disks: 1..=100_000,
+            default_disks: 60,
+            stop_time: 10.0,
+            step_size: 1e-3,
+        }
+        .into()
+    }
+
+    fn variables(structure: &StructuralParameters) -> Vec<Row<Self>> {
+        let disks = info::disks(structure);
+        let at_start = AtStart::of::<D>(&[]);
+        let mut rows = rows::parameters();
+        rows.extend(S::parameters());
+        rows.extend(D::rows());
+        rows.extend(Self::time_steps());
+        rows.extend(radii(disks, 0.02, &at_start.radii, |packing: &Self, disk| {
+            packing.engine.radii()[disk]
+        }));
+        rows.extend(rows::means_and_base(&at_start));
+        rows.extend(Self::energies_and_contacts(&at_start));
+        rows.extend(rows::each_disk(disks, &at_start));
+        complete(rows)
+    }
+
+    fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
+        let disks = initial_packing::disks(info::disks(structure), values, 0.0)?;
+        Self::of_disks(&disks, start_time, values)
+    }
+
+    fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
+        let from = self.report.time;
+        let duration = end_time - from;
+        let impulse = self.engine.impulse_of_wall(FLOOR)[1];
+        let drive = self.engine.drive_mut().clone();
+        self.engine.drive_mut().set_target(from, duration, values);
+        if let Err(breakdown) = self
+            .engine
+            .advance_within(end_time, &mut WorkBudget::at_most(self.most_work))
+        {
+            *self.engine.drive_mut() = drive;
+            return Err(refused_step(NAME, breakdown));
+        }
+        self.report = StepReport {
+            time: end_time,
+            reaction_force: (impulse - self.engine.impulse_of_wall(FLOOR)[1]) / duration,
+        };
+        Ok(())
+    }
+
+    fn limit_work(&mut self, most: u64) {
+        self.most_work = most;
+    }
+
+    fn state(&self) -> Self::State {
+        PackingState {
+            engine: self.engine.state().clone(),
+            report: self.report,
+            start_energy: self.start_energy,
+        }
+    }
+
+    fn time_of(state: &Self::State) -> f64 {
+        state.report.time
+    }
+
+    fn restore(&mut self, state: &Self::State) -> Result<()> {
+        let report_holds = state.report.is_sane() && are_sane([state.start_energy]);
+        if !(report_holds && self.engine.fits(&state.engine, state.report.time)) {
+            return Err(Error::state(
+                "it has other numbers of disks or contacts, or numbers that no packing has",
+                "Restore states of the same scene, disk count and parameters only.",
+            ));
+        }
+        self.engine
+            .restore(&state.engine, state.report.time)
+            .map_err(|breakdown| refused_step(NAME, breakdown))?;
+        (self.report, self.start_energy) = (state.report, state.start_energy);
+        Ok(())
+    }
+}

@@ -1,0 +1,59 @@
+//! Why a step of the ratchet is refused: what stopped the engine or is wrong with the inputs, and what to do about it.
+
+use crate::engine::event_driven::{Partner, Stop};
+use crate::scene::Error;
+
+use super::NAME;
+
+/// Greatest acceleration \[m/s2\] of the base, beyond which searches for first hits take ever smaller steps. The sine of the
+/// greatest amplitude and frequency has 4e13.
+pub const MOST_ACCELERATION: f64 = 1e14;
+
+/// What stopped the engine, as the error of a step.
+pub fn refusal(stop: Stop) -> Error {
+    let stop = match stop {
+        Stop::NoHeadway(stop) => stop,
+        Stop::TooManyEvents { time, most } => {
+            return Error::too_much_work(NAME, time, format!("more than {most} events"));
+        }
+    };
+    let disk = stop.disk + 1;
+    let partner = match stop.partner {
+        Partner::Disk(other) => format!("disk {}", other + 1),
+        Partner::Wall(0) => "the base".into(),
+        Partner::Wall(_) => "the ceiling".into(),
+        Partner::Shell => "nobody: it is too fast".into(),
+    };
+    Error::Step {
+        model: NAME,
+        time: stop.time,
+        what: format!(
+            "no headway: {} events in {:e} s, the last of disk {disk} with {partner}",
+            stop.events, stop.duration
+        ),
+        remedy: "Inelastic collapse? Raise collision.minimum_normal_velocity or collision.restitution.".into(),
+    }
+}
+
+/// The inputs move the base so that disks cannot follow it.
+pub fn impossible_motion(time: f64, acceleration: f64, farthest: f64, headroom: f64) -> Error {
+    let (what, remedy) = if farthest < headroom {
+        (
+            format!(
+                "the inputs accelerate the base by {acceleration:e} m/s2, and {MOST_ACCELERATION:e} m/s2 is the most"
+            ),
+            "Let base.displacement and base.velocity fit each other and the communication step.",
+        )
+    } else {
+        (
+            format!("the inputs move the base up by {farthest} m, and {headroom} m are left below the ceiling"),
+            "Keep base.displacement smaller or raise cell.height.",
+        )
+    };
+    Error::Step {
+        model: NAME,
+        time,
+        what,
+        remedy: remedy.into(),
+    }
+}

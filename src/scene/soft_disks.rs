@@ -1,0 +1,86 @@
+//! What the scenes of soft disks share: contact laws and time step that their parameters describe, and what they say when an
+//! engine stops.
+
+use crate::contact::{ContactLaws, LinearDashpot, TangentialSpring};
+use crate::engine::dem::{Breakdown, TimeStepLimits};
+
+use super::{Error, Result, Values};
+
+/// What the time step of one disk depends on besides its drive: its fastest mode, and the choice of the user.
+pub const STEP_OF_ONE_DISK: &[&str] = &[
+    "disk.mass",
+    "contact.normal_stiffness",
+    "contact.stiffness_ratio",
+    "contact.normal_damping",
+    "contact.friction",
+    "time_step",
+];
+
+/// The laws that the parameters `contact.*` describe.
+pub fn contact_laws(values: &Values) -> ContactLaws {
+    let normal = LinearDashpot {
+        stiffness: values.real("contact.normal_stiffness"),
+        damping: values.real("contact.normal_damping"),
+    };
+    let tangential = TangentialSpring {
+        stiffness: values.real("contact.stiffness_ratio") * normal.stiffness,
+        friction: values.real("contact.friction"),
+    };
+    ContactLaws { normal, tangential }
+}
+
+/// The time step that the parameter `time_step` asks for: 0 asks for the default.
+///
+/// # Errors
+/// A step that these contacts do not allow.
+pub fn chosen_time_step(values: &Values, limits: &TimeStepLimits) -> Result<f64> {
+    let asked = values.real("time_step");
+    if asked == 0.0 {
+        return Ok(limits.default);
+    }
+    if asked <= limits.largest {
+        return Ok(asked);
+    }
+    Err(Error::parameter(
+        "time_step",
+        format!("{asked:e} s"),
+        format!("at most {:e} s for these contacts, masses and drive", limits.largest),
+        format!("Give a smaller step, or 0 for the default of {:e} s.", limits.default),
+    ))
+}
+
+/// The refused step of a scene whose engine broke down.
+pub fn refused_step(scene: &'static str, breakdown: Breakdown) -> Error {
+    let smaller = "Check the base's amplitude and the inputs, or take a smaller time_step";
+    let (time, what, remedy) = match breakdown {
+        Breakdown::TooDeep { time, overlap, allowed } => (
+            time,
+            format!("an overlap of {overlap:e} m, more than the {allowed:e} m (half of the smallest radius) allowed"),
+            format!("{smaller} or a larger contact.normal_stiffness."),
+        ),
+        Breakdown::TooFast {
+            time,
+            distance,
+            allowed,
+        } => (
+            time,
+            format!("a disk moved {distance:e} m in one time step, more than the {allowed:e} m allowed"),
+            format!("{smaller}."),
+        ),
+        Breakdown::NotFinite { time } => (
+            time,
+            "a position, a velocity or the base is beyond 1e100 or no longer finite".into(),
+            format!("{smaller}."),
+        ),
+        Breakdown::TooManySteps { time, steps, most } => {
+            let asked = format!("{steps:e} time steps (at most {most:e} for these disks)");
+            return Error::too_much_work(scene, time, asked);
+        }
+    };
+    Error::Step {
+        model: scene,
+        time,
+        what,
+        remedy,
+    }
+}

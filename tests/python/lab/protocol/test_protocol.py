@@ -1,0 +1,144 @@
+"""The protocol, the runner and everything it writes, with grains that need no FMU."""
+
+import json
+from functools import partial
+
+import numpy as np
+import pytest
+from fake_grains import make_turning_lump
+
+from jostle_lab.coupling.compare import compare_exchanges
+from jostle_lab.demos.packing.figures import draw, draw_all
+from jostle_lab.demos.packing.numbers import write_report
+from jostle_lab.errors import LabError
+from jostle_lab.protocol import intervals as protocol
+from jostle_lab.protocol.experiment import Setup
+from jostle_lab.protocol.packings import Plan, run
+from jostle_lab.protocol.results import Results
+
+
+def plan(folder, **changes):
+    setup = Setup(protocol.scaled_down((1.0, 0.4), 8), steps_per_second=800)
+    return Plan(folder, **{"seeds": (1, 2), "setup": setup, "show_progress": False} | changes)
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("results")
+    run(plan(folder), make_turning_lump)
+    return folder
+
+
+def test_protocol_of_the_thesis():
+    schedule = protocol.thesis()
+    amplitudes = [interval.amplitude for interval in schedule.intervals]
+    assert len(amplitudes) == 32
+    assert amplitudes[:2] == [1.0, 0.95]
+    assert amplitudes[15:18] == [0.25, 0.2, 0.19]
+    assert amplitudes[-1] == 0.05
+    assert schedule.duration() == 300 + 32 * 1200
+
+
+def test_protocol_refuses_what_cannot_be():
+    with pytest.raises(LabError, match=r"amplitude = 1.5 is outside \[0.001, 1\]"):
+        protocol.scaled_down((1.5,), 20)
+    with pytest.raises(LabError, match="No amplitudes"):
+        protocol.scaled_down((), 20)
+
+
+def test_setup_refuses_rates_that_do_not_fit():
+    with pytest.raises(LabError, match=r"1000 is not a multiple of the drive frequency, 80 Hz\. .*4800"):
+        Setup(protocol.thesis(), steps_per_second=1000)
+
+
+def test_tables_hold_what_was_done(finished):
+    results = Results(finished)
+    assert results.seeds == [1, 2]
+    assert len(results.amplitudes) == 4
+    strong, weak = results.amplitudes_of(1)
+    assert strong["gamma_true"] == pytest.approx(5.0, rel=0.25)  # the lump loads the base
+    assert weak["gamma_true"] == pytest.approx(0.4 * strong["gamma_true"], rel=1e-3)
+    assert strong["gamma_measured"] == pytest.approx(strong["gamma_true"], rel=2e-3)
+    assert abs(strong["coupling_error"]) < 0.6
+    time, angles = results.angles(1, 1.0)
+    assert time.tolist() == [0, 1, 2, 3, 4, 5, 6]
+    velocities = [disk["mean_velocity"] for disk in results.disks_of(1, 1.0)]
+    np.testing.assert_allclose((angles[-1] - angles[0]) / 6.0, velocities, rtol=1e-4, atol=1e-6)
+    assert results.readings(2, 0.4).shape == (6 * 200, 2)
+
+
+def test_turning_rates_are_recovered(finished):
+    disks = Results(finished).disks_of(1, 1.0)
+    rates = np.random.default_rng(1).normal(size=60)
+    velocities = np.array([disk["mean_velocity"] for disk in disks])
+    assert np.corrcoef(rates, velocities)[0, 1] > 1.0 - 1e-9
+
+
+def test_pictures_and_page_are_written(finished):
+    results = Results(finished)
+    assert [path.name for path in draw_all(results)] == [
+        "angular_paths.png",
+        "packing.png",
+        "accelerometer_spectrum.png",
+        "rotation_against_gamma.png",
+    ]
+    page = write_report(results).read_text()
+    assert page.count("| 1.00 |") == 2
+    assert "| loudspeaker |" in page
+    assert "nan" not in page
+
+
+def test_a_picture_can_be_drawn_after_the_first_interval(tmp_path):
+    pictures, intervals = [], []
+
+    def draw_once():
+        intervals.append(len(list(tmp_path.glob("packings/*/packing.json"))))
+        if not pictures:
+            pictures.append(draw("packing.png", Results(tmp_path, unfinished=True)))
+
+    run(plan(tmp_path, processes=1), make_turning_lump, draw_once)
+    assert len(intervals) == 2 * 2
+    assert intervals[0] == 0  # no packing was finished when the picture was drawn
+    assert pictures[0].stat().st_size > 10_000
+    assert list(tmp_path.rglob("unfinished.json")) == []
+
+
+def test_finished_packings_are_not_run_again(finished):
+    file = finished / "packings" / "seed-0001" / "packing.json"
+    before = file.stat().st_mtime_ns
+    run(plan(finished), None)  # no factory: any packing to run would fail
+    assert file.stat().st_mtime_ns == before
+
+
+def test_folder_of_other_settings_is_refused(finished):
+    with pytest.raises(LabError, match=r"holds results of other settings.*remove this one"):
+        run(plan(finished, labels=(("contact.friction", "0.2"),)), make_turning_lump)
+
+
+def test_same_seed_gives_the_same_files(finished, tmp_path):
+    run(plan(tmp_path, seeds=(2,), processes=1), make_turning_lump)
+    for name in ("amplitudes.csv", "disks.csv", "angles.csv", "accelerometers.csv"):
+        assert (tmp_path / "packings/seed-0002" / name).read_bytes() == (
+            finished / "packings/seed-0002" / name
+        ).read_bytes()
+
+
+def fail_to_make(message, seed):
+    raise LabError(f"{message} {seed}")
+
+
+def test_error_in_a_worker_reaches_the_user(tmp_path):
+    with pytest.raises(LabError, match="no grains 1"):
+        run(plan(tmp_path, seeds=(1,)), partial(fail_to_make, "no grains"))
+    assert json.loads((tmp_path / "run.json").read_text())["setup"]["steps_per_second"] == 800
+
+
+def test_empty_folder_is_reported(tmp_path):
+    with pytest.raises(LabError, match="no finished packing"):
+        Results(tmp_path)
+
+
+def test_comparison_of_exchanges_is_a_table(monkeypatch):
+    monkeypatch.setattr("jostle_lab.coupling.compare.STEP_RATES", (800,))
+    table = compare_exchanges(make_turning_lump, 1, 0.5)
+    assert [line.split("|")[2].strip() for line in table.splitlines()[2:]] == ["jacobi", "grains-first", "iterated"]

@@ -1,0 +1,61 @@
+"""The libraries that scripts/setup built: what they ask of the machine, and what is in them."""
+
+import os
+from pathlib import Path
+
+import pytest
+from conftest import RELEASE, ROOT
+
+from jostle_lab.errors import LabError
+from tools.release.binaries import OLDEST_GLIBC, SYSTEM, needs, scenes, strangers
+from tools.release.verify import in_a_child
+
+LIBRARIES = sorted(RELEASE.glob("libjostle_*.so"))
+WORDS = {
+    "packing": b"box.width",
+    "ratchet": b"tooth.width",
+    "wedge": b"wedge.aperture",
+    "three_disk": b"skin.departure",
+}
+SHIPPED = sorted((ROOT / "build" / "release").glob("libjostle_*.so"))
+
+
+def test_every_scene_has_its_library():
+    assert len(LIBRARIES) == len(scenes(RELEASE / "libjostle_c.so")) + 1
+
+
+@pytest.mark.parametrize("library", LIBRARIES, ids=lambda path: path.stem)
+def test_nothing_but_the_system_is_asked_for(library: Path):
+    """Built here, a library needs this machine's glibc and the compiler's unwinder; scripts/release needs neither."""
+    assert needs(library).libraries <= SYSTEM | {"libgcc_s.so.1"}
+
+
+@pytest.mark.parametrize("library", LIBRARIES, ids=lambda path: path.stem)
+def test_the_variables_of_other_scenes_are_not_in_it(library: Path):
+    if library.stem == "libjostle_c":
+        return
+    bytes_of = library.read_bytes()
+    held = {scene for scene, word in WORDS.items() if word in bytes_of}
+    assert all(library.stem.startswith(f"libjostle_{scene}") for scene in held)
+
+
+@pytest.mark.skipif(not SHIPPED, reason="scripts/release has not run here")
+@pytest.mark.parametrize("library", SHIPPED, ids=lambda path: path.stem)
+def test_what_ships_runs_on_an_old_system(library: Path):
+    found = needs(library)
+    assert found.glibc <= OLDEST_GLIBC
+    assert found.libraries <= SYSTEM
+
+
+def test_a_stripped_library_is_reported():
+    with pytest.raises(Exception, match="no symbol table"):
+        strangers(RELEASE / "libjostle_packing.so")
+
+
+def abort(_fmu: Path) -> None:
+    os.abort()
+
+
+def test_a_process_that_a_panic_ends_is_reported(tmp_path: Path):
+    with pytest.raises(LabError, match="ended its process with exit code -6"):
+        in_a_child(abort, tmp_path / "it.fmu")

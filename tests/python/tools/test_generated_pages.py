@@ -1,0 +1,73 @@
+"""The page of work-precision diagrams is what its data say."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+from jostle_lab.errors import LabError
+from tools import stability_page
+from tools.paths import (
+    BINARIES,
+    BINARIES_PAGE,
+    INSTRUCTION_COUNTS,
+    STABILITY,
+    STABILITY_PAGE,
+    WORK_PRECISION,
+    WORK_PRECISION_PAGE,
+)
+from tools.release import page as binaries_page
+from tools.work_precision.page import Point, diagrams, draw_all, order, page, time_at
+
+
+def curve(errors: list[float], times: list[float]) -> list[Point]:
+    return [Point(1.0, error, 0.0, time, time) for error, time in zip(errors, times, strict=True)]
+
+
+def test_committed_page_is_that_of_the_committed_data() -> None:
+    written = page(WORK_PRECISION, WORK_PRECISION.name, INSTRUCTION_COUNTS)
+    assert written == WORK_PRECISION_PAGE.read_text(), "write it anew: python -m tools work-precision"
+
+
+def test_committed_stability_page_is_that_of_the_committed_data() -> None:
+    written = stability_page.page(STABILITY)
+    assert written == STABILITY_PAGE.read_text(), "write it anew: python -m tools stability"
+
+
+def test_committed_page_of_binaries_is_that_of_the_committed_data() -> None:
+    written = binaries_page.page(BINARIES)
+    again = "write it anew: scripts/release, then python -m tools binaries --data docs/generated/binaries"
+    assert written == BINARIES_PAGE.read_text(), again
+
+
+def test_every_measured_case_has_a_small_picture(tmp_path: Path) -> None:
+    found = diagrams(WORK_PRECISION)
+    assert sum(bool(diagram.curves) for diagram in found) >= 10
+    pictures = draw_all(found, tmp_path)
+    assert {picture.name for picture in pictures} == {p.name for p in WORK_PRECISION.glob("*.png")}
+    assert sum(picture.stat().st_size for picture in pictures) < 200_000
+
+
+def test_order_is_the_slope() -> None:
+    times = [1.0, 2.0, 4.0, 8.0]
+    assert order(curve([t**-4 for t in times], times)) == pytest.approx(4.0)
+    # A curve that ends at the error of its reference has the order of what lies above.
+    longer = [2.0**n for n in range(7)]
+    assert order(curve([t**-4 + 1e-5 for t in longer], longer)) == pytest.approx(4.0, abs=0.05)
+    assert order(curve([1e-3, 1e-4], [1.0, 10.0])) is None
+    assert order(curve([1e-15, 1e-16, 1e-15], times[:3])) is None
+
+
+def test_time_at_an_error_lies_on_the_curve() -> None:
+    falling = curve([1e-2, 1e-4], [1.0, 100.0])
+    assert time_at(falling, 1e-3) == pytest.approx(10.0)
+    assert time_at(falling, 1e-5) is None
+    assert time_at(falling, 1.0) == 1.0
+    rising_again = curve([1e-2, 1e-4, 1e-2, 1e-5], [1.0, 2.0, 4.0, 8.0])
+    crossed = time_at(rising_again, 1e-3)
+    assert crossed is not None and 4.0 < crossed < 8.0 and not math.isnan(crossed)
+
+
+def test_a_folder_without_data_is_reported(tmp_path: Path) -> None:
+    with pytest.raises(LabError, match="jostle-bench report --out"):
+        diagrams(tmp_path)

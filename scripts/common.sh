@@ -14,6 +14,20 @@ fail() {
 # need COMMAND REMEDY
 need() { command -v "$1" >/dev/null || fail "$1 is not installed." "$2"; }
 
+# The toolchain that rust-toolchain.toml names, or the installed default if that is as new: rustup then fetches nothing.
+use_installed_rust() {
+    local named installed default version
+    named="$(sed -n 's/^channel = "\(.*\)"/\1/p' rust-toolchain.toml)"
+    [[ -z "${RUSTUP_TOOLCHAIN:-}" ]] && command -v rustup >/dev/null || return 0
+    installed="$(rustup toolchain list 2>/dev/null)" || return 0
+    ! grep -q "^$named" <<<"$installed" || return 0
+    default="$(awk '/default/ { print $1; exit }' <<<"$installed")"
+    [[ -n "$default" ]] || return 0
+    version="$(rustup run "$default" rustc --version 2>/dev/null | cut -d ' ' -f 2)"
+    [[ "$(printf '%s\n' "$named" "$version" | sort -V | head -n 1)" != "$named" ]] || export RUSTUP_TOOLCHAIN="$default"
+}
+use_installed_rust
+
 # quietly WHAT REMEDY COMMAND...: shows the output only if the command fails.
 quietly() {
     local what="$1" remedy="$2" output

@@ -39,7 +39,7 @@ def _modules(source: Path) -> Iterator[tuple[Module, Path]]:
 def _imports(module: Module, text: str, files: dict[Module, Path]) -> Iterator[Module]:
     """Modules of other families that the text of a module names."""
     text = re.sub(r"(?s)#\[cfg\(test\)\]\s*mod tests \{.*|//[^\n]*", "", text)
-    named = re.findall(r"(?s)\buse\s+([^;]+);", text) + re.findall(r"\b((?:crate|super|self)(?:::\w+)+)", text)
+    named = re.findall(r"\buse\s+([\w:{},*\s]+);", text) + re.findall(r"\b((?:crate|super|self)(?:::\w+)+)", text)
     for statement in named:
         for path in _expand(re.sub(r"\s+", "", statement)):
             target = _resolve(module, path.split("::"), files)

@@ -1,4 +1,4 @@
-"""`docs/generated/stability.md` from the files of `jostle-bench stability`: a table for each scene and engine, refusals."""
+"""`docs/generated/stability.md` from the files of `jostle-bench stability`: a table a scene and engine, refusals."""
 
 from pathlib import Path
 from typing import Annotated
@@ -49,7 +49,8 @@ def page(folder: Path) -> str:
             parts.append("Refused:\n" + "\n".join(_reason(row) for row in refused))
     long = folder / "long.csv"
     if long.is_file():
-        parts.append("## Long runs\n\nOne disk; `jostle-bench stability --long`.\n\n" + _long_table(read_text_rows([long])))
+        heading = "## Long runs\n\nOne disk; `jostle-bench stability --long`."
+        parts += [heading, _long_table(read_text_rows([long]))]
     return "\n\n".join(parts) + "\n"
 
 

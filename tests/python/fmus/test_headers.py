@@ -83,7 +83,7 @@ def declared(version: int) -> dict[str, tuple[str, list[str]]]:
 
 def exported(version: int) -> dict[str, tuple[str, list[str]]]:
     """The same of the table from which the library's functions are made."""
-    text = (ROOT / f"src/fmi/abi/export_fmi{version}.rs").read_text()
+    text = (ROOT / f"crates/fmi-component/src/c_api/export_fmi{version}.rs").read_text()
     found = re.findall(r"\bfn (fmi\w+)\(([^)]*)\)(?: -> ([^=]+?))? =\n", text)
     table = {}
     for name, arguments, result in found:

@@ -22,7 +22,7 @@ def crate(folder: Path, licence: str, **files: str) -> Crate:
 
 
 def test_the_file_is_what_the_command_writes():
-    assert notices_of_fmus(ROOT) == KEPT, "write it again: python -m jostle_lab notices"
+    assert notices_of_fmus(ROOT) == KEPT, "write it again: python -m tools notices"
 
 
 def test_what_is_linked_is_named_and_nothing_of_the_command_line_is():

@@ -1,12 +1,14 @@
 """Many packings in several processes, one seed each, with a progress bar; finished packings are not run again."""
 
 import json
+import os
 import queue
+import signal
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,7 @@ GrainsFactory = Callable[[int], Grains]
 """Makes the grains of a seed; importable or picklable, since other processes call it."""
 
 _reports: Any = None  # the queue of this worker process
+_grains: Grains | None = None  # those it shakes
 
 
 @dataclass(frozen=True)
@@ -57,7 +60,8 @@ def run(plan: Plan, factory: GrainsFactory, on_interval: Callable[[], None] = la
         ) as bar,
         _workers(min(plan.processes, max(len(todo), 1)), reports) as pool,
     ):
-        jobs = [pool.submit(_work, factory, plan.setup, seed, plan.packing_folder(seed)) for seed in todo]
+        with _no_interrupt():
+            jobs = [pool.submit(_work, factory, plan.setup, seed, plan.packing_folder(seed)) for seed in todo]
         _wait(jobs, reports, bar, on_interval)
 
 
@@ -81,20 +85,42 @@ def _workers(count: int, reports: Any) -> Iterator[ProcessPoolExecutor]:
         yield pool
     except BaseException:
         pool.shutdown(wait=False, cancel_futures=True)
+        for worker in active_children():
+            worker.terminate()
         raise
     pool.shutdown()
+
+
+@contextmanager
+def _no_interrupt() -> Iterator[None]:
+    """Processes that are started here never see Ctrl-C, of which each would print a traceback: they are terminated."""
+    handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, handler)
 
 
 def _attach(reports: Any) -> None:
     global _reports  # noqa: PLW0603 - a queue can only be inherited, not sent with a job
     _reports = reports
+    signal.signal(signal.SIGTERM, _end)
+
+
+def _end(*_: object) -> None:
+    """End this process at once, but remove what its FMU was unpacked into."""
+    if _grains is not None:
+        _grains.close()
+    os._exit(1)
 
 
 def _work(factory: GrainsFactory, setup: Setup, seed: int, folder: Path) -> None:
-    grains = factory(seed)
+    global _grains  # noqa: PLW0603 - what a signal must find
+    _grains = grains = factory(seed)
     try:
         run_packing(grains, setup, seed, folder, _reports.put)
     finally:
+        _grains = None
         grains.close()
 
 

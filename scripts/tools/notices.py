@@ -67,7 +67,7 @@ def notices_of_fmus(root: Path = ROOT) -> str:
 def notices_of_command_line(root: Path = ROOT) -> str:
     """The same for the program `jostle`, which is shipped beside the FMUs and holds more than they do."""
     packages, own = _packages(root)
-    crates = [_crate(packages[key]) for key in sorted(linked(_tree(root, ["jostle"], SHIPPED)) - own)]
+    crates = [_crate(packages[key]) for key in sorted(linked(_tree(root, ["jostle-cli"], SHIPPED)) - own)]
     lists = {"In the command line:": crates}
     return compose("jostle's command line holds", lists, STANDARD_LIBRARY.read_text(encoding="utf-8"))
 

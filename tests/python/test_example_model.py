@@ -1,5 +1,6 @@
 """The example model of `fmi-component` becomes valid FMUs of both versions by the example of `fmi-bundle`."""
 
+import os
 import subprocess
 from pathlib import Path
 
@@ -9,16 +10,16 @@ from conftest import ROOT
 from fmpy import simulate_fmu
 from fmpy.validation import validate_fmu
 
-CARGO = ["--locked", "--quiet", "--profile", "test", "--package"]
-EXAMPLES = ROOT / "target/debug/examples"
+BUILD = "cargo build --locked --quiet --profile test --workspace --example van_der_pol --example van_der_pol_fmu"
+"""Of the whole workspace: then all that `cargo test` has compiled is used."""
+EXAMPLES = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "debug/examples"
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """With the FMUs of Van der Pol's oscillator."""
     made = tmp_path_factory.mktemp("van der pol")
-    for package, example in [("fmi-component", "van_der_pol"), ("fmi-bundle", "van_der_pol_fmu")]:
-        subprocess.run(["cargo", "build", *CARGO, package, "--example", example], check=True, cwd=ROOT)
+    subprocess.run(BUILD.split(), check=True, cwd=ROOT)
     subprocess.run([EXAMPLES / "van_der_pol_fmu", EXAMPLES / "libvan_der_pol.so", made], check=True)
     return made
 

@@ -33,18 +33,21 @@ Row = dict[str, str]
 SYSTEM = frozenset({"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "ld-linux-x86-64.so.2"})
 """All parts of glibc; nothing else may be asked for."""
 
-STRANGERS = (
-    ("jostle_packing_event_driven", ("verlet", "event_located", "ratchet", "wedge", "three_disk")),
-    ("jostle_packing_located", ("event_driven", "VelocityVerlet", "ratchet", "wedge", "three_disk")),
-    ("jostle_packing", ("event_driven", "event_located", "ratchet", "wedge", "three_disk")),
-    ("jostle_ratchet", ("verlet", "wedge", "three_disk")),
-    ("jostle_wedge_molecular_dynamics", ("ratchet", "event_driven", "DiskInWedge", "three_disk")),
-    ("jostle_wedge", ("verlet", "ratchet", "event_driven", "three_disk")),
-    ("jostle_three_disk", ("ratchet", "event_driven", "wedge")),
+NEEDED = (
+    ("jostle_packing_event_driven", ("engine::event_driven", "scene::packing")),
+    ("jostle_packing_located", ("engine::dem::event_located", "scene::packing")),
+    ("jostle_packing", ("engine::dem::verlet", "scene::packing")),
+    ("jostle_ratchet", ("engine::event_driven", "scene::ratchet")),
+    ("jostle_wedge_molecular_dynamics", ("engine::dem::verlet", "scene::wedge")),
+    ("jostle_wedge", ("engine::wedge::DiskInWedge", "scene::wedge")),
+    ("jostle_three_disk", ("engine::disk_on_two_supports", "scene::disk_on_two_supports")),
 )
-"""Words of the symbols that a library must not have, by the beginning of its name; the first that fits counts."""
+"""Modules and types of the crate jostle in a library, by the beginning of its name; the first that fits counts."""
 
-NOWHERE = ("quick_xml", "clap", "catalogue", "command_line", "toml", "bundle")
+MODULES = frozenset(module for _, modules in NEEDED for module in modules)
+"""A library holds those of them that it needs and no other."""
+
+NOWHERE = ("quick_xml::", "clap", "scene::catalogue", "jostle_cli::", "toml", "fmi_bundle::")
 """Words that no FMU's library may have: the command line, the writing of FMUs, the table of all scenes."""
 
 
@@ -69,15 +72,33 @@ def needs(library: Path) -> Needs:
 
 
 def strangers(library: Path) -> list[str]:
-    """Symbols of an unstripped library that its scene does not need."""
+    """Symbols of an unstripped library that its scene does not need.
+
+    Raises LabError if those that it does need are not found: then this table no longer has the names of the modules.
+    """
     name = library.stem.removeprefix("lib")
-    words = [*NOWHERE, *next((words for start, words in STRANGERS if name.startswith(start)), ())]
+    needed = next((modules for start, modules in NEEDED if name.startswith(start)), ())
+    found = symbols(library)
+    if missing := [module for module in needed if not any(module in symbol for symbol in found)]:
+        raise LabError(f"{library} holds no symbol of {missing}. Was a module renamed? Correct NEEDED")
+    words = [*NOWHERE, *sorted(MODULES.difference(needed))]
     if not name.endswith("_input") and _has_twin(library):
         words.append("FollowsInput")
-    symbols = _run("nm", str(library)).splitlines()
-    if len(symbols) < 100:
-        raise LabError(f"{library} has no symbol table. Build it with CARGO_PROFILE_RELEASE_STRIP=none")
-    return [line.split()[-1] for line in symbols if any(word in line for word in words)]
+    return [symbol for symbol in found if any(word in symbol for word in words)]
+
+
+def unknown(folder: Path) -> list[str]:
+    """Words of `NOWHERE` that neither the command line nor the C library in `folder` has: they would check nothing."""
+    found = [*symbols(folder / "jostle"), *symbols(folder / "libjostle_c.so")]
+    return [word for word in NOWHERE if not any(word in symbol for symbol in found)]
+
+
+def symbols(library: Path) -> list[str]:
+    """Names of all functions and objects of an unstripped library, as paths of Rust."""
+    lines = _run("nm", "--demangle", str(library)).splitlines()
+    if len(lines) < 100:
+        raise LabError(f"{library} has no symbol table. Build it with CARGO_PROFILE_SHIPPED_STRIP=none")
+    return [line[19:] for line in lines]
 
 
 def _has_twin(library: Path) -> bool:

@@ -9,7 +9,7 @@ from jostle_lab.errors import LabError
 from jostle_lab.tables import write_table
 from tools.paths import BUILD, TARGET
 from tools.release import page
-from tools.release.binaries import COLUMNS, release_rows, strangers, tools
+from tools.release.binaries import COLUMNS, release_rows, strangers, tools, unknown
 from tools.release.verify import verify as verify_release
 
 Folder = Annotated[Path, typer.Argument(help="Folder that scripts/release made.")]
@@ -25,6 +25,8 @@ def binaries(
 ) -> None:
     """Print the size of each FMU and library, and what it needs; refuse what needs more than it may."""
     if symbols is not None:
+        if words := unknown(symbols):
+            raise LabError(f"no symbol in {symbols} holds {words}. Was a module renamed? Correct NOWHERE")
         for library in sorted(symbols.glob("libjostle_*.so")):
             if library.stem != "libjostle_c" and (found := strangers(library)):
                 raise LabError(f"{library} holds {len(found)} symbols of other scenes, such as {found[0]}")

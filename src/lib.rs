@@ -1,7 +1,8 @@
 //! Vibrated granular disks as components that plug into other people's simulations.
 //!
 //! SI units throughout; x to the right, y up, angles and angular velocities counter-clockwise.
-//! Imports point one way: `fmi, main -> scene -> measure -> engine -> contact, collision, drive -> geometry`.
+//! Imports point one way: `scene -> measure -> engine, packing -> contact, collision, drive -> geometry`. Only `scene` knows the crate
+//! `fmi_component`, which makes a co-simulation component of a scene.
 
 pub mod collision;
 pub mod contact;

@@ -14,7 +14,7 @@ use jostle::scene::{Causality, Kind, ModelType, Value};
 fn growth(model: &ModelType) -> f64 {
     let disks = (model.info)().structure[0].default;
     let component = fmus::component(model, disks);
-    let identifier = component.info().identifier;
+    let identifier = &component.info().identifier;
     let reference = reference::record(&component).unwrap();
     let mut lines = reference.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();

@@ -1,40 +1,9 @@
 //! All scenes by name, for programs that choose one at run time: the command line, the C library.
 //!
-//! A new scene is one line in [`MODELS`]. Code that names a scene's type does not need this module.
+//! Code that names a scene's type does not need this module.
 
-use super::disk_on_two_supports::{
-    DiskOnTwoSupportsOnHarmonicTorque, DiskOnTwoSupportsOnInput, DiskOnTwoSupportsOnRandomSupports,
-    DiskOnTwoSupportsOnSine,
-};
-use super::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
-use super::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
-use super::ratchet::{RatchetOnInput, RatchetOnSine};
-use super::wedge::{
-    WedgeEventDrivenOnInput, WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnInput,
-    WedgeMolecularDynamicsOnSine,
-};
+pub use super::MODELS;
 use super::{Error, ModelInfo, ModelType, Result};
-
-/// All scenes. The first engine of a scene is its default, and the first drive of an engine.
-pub const MODELS: &[ModelType] = &[
-    ModelType::of::<PackingOnInput>(),
-    ModelType::of::<PackingOnSine>(),
-    ModelType::of::<LocatedPackingOnInput>(),
-    ModelType::of::<LocatedPackingOnSine>(),
-    ModelType::of::<HardPackingOnInput>(),
-    ModelType::of::<HardPackingOnSine>(),
-    ModelType::of::<WedgeMap>(),
-    ModelType::of::<WedgeEventDrivenOnInput>(),
-    ModelType::of::<WedgeEventDrivenOnSine>(),
-    ModelType::of::<WedgeMolecularDynamicsOnInput>(),
-    ModelType::of::<WedgeMolecularDynamicsOnSine>(),
-    ModelType::of::<RatchetOnInput>(),
-    ModelType::of::<RatchetOnSine>(),
-    ModelType::of::<DiskOnTwoSupportsOnInput>(),
-    ModelType::of::<DiskOnTwoSupportsOnHarmonicTorque>(),
-    ModelType::of::<DiskOnTwoSupportsOnRandomSupports>(),
-    ModelType::of::<DiskOnTwoSupportsOnSine>(),
-];
 
 /// Names of a scene, its engine and its drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -227,7 +227,8 @@ impl<E: DiskOnTwoSupportsDrive> Model for DiskOnTwoSupportsScene<E> {
     fn info() -> ModelInfo {
         SceneInfo {
             scene: NAME,
-            identifier: E::IDENTIFIER,
+            identifier: "jostle_three_disk",
+            unnamed_drive: "input",
             engine: "molecular-dynamics",
             drive: E::NAME,
             description: E::DESCRIPTION,

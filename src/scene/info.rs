@@ -16,8 +16,10 @@ pub struct SceneInfo {
     pub engine: &'static str,
     /// Drive, such as `input` or `sine`.
     pub drive: &'static str,
-    /// Model identifier, file name and C identifier at once, such as `jostle_packing`.
+    /// Model identifier with the drive `unnamed_drive`, such as `jostle_packing`; with any other its name is appended.
     pub identifier: &'static str,
+    /// The drive that the model identifier does not name.
+    pub unnamed_drive: &'static str,
     /// One sentence.
     pub description: &'static str,
     /// HTML fragment with the equations and their sources, for the documentation page.
@@ -39,7 +41,11 @@ impl From<SceneInfo> for ModelInfo {
             version: env!("CARGO_PKG_VERSION"),
             name: info.scene,
             variant: vec![("engine", info.engine), ("drive", info.drive)],
-            identifier: info.identifier,
+            identifier: if info.drive == info.unnamed_drive {
+                info.identifier.into()
+            } else {
+                format!("{}_{}", info.identifier, info.drive.replace('-', "_")).into()
+            },
             description: info.description,
             equations: info.equations,
             structure: vec![StructuralParameter {

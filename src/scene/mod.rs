@@ -1,13 +1,20 @@
 //! Scenes: engines, laws, drives and measures wired together as models, with their parameters, ranges and variables.
 //!
 //! Each scene is a [`Model`]. A Rust program runs a [`Simulation`] of it, or an [`AnySimulation`] if the scene is chosen by name
-//! at run time. No other part of this crate knows the crate `fmi_component`.
+//! at run time. No other part of this crate knows the crate `fmi_component`. A new scene, and a scene on a new drive, is one line
+//! in [`MODELS`].
 
 mod any_simulation;
 pub mod base_drive;
 pub mod catalogue;
 pub mod disk_on_two_supports;
 pub mod disks_on_base;
+pub mod drives {
+    //! The drives of a base, one a file: their parameters and inputs as rows.
+
+    mod follows_input;
+    pub mod sine;
+}
 pub mod hard_disks;
 mod info;
 pub mod packing;
@@ -25,6 +32,27 @@ pub use fmi_component::{
 pub use info::SceneInfo;
 #[cfg(feature = "toml")]
 pub use recipe::Recipe;
+
+/// All scenes. The first engine of a scene is its default, and the first drive of an engine.
+pub const MODELS: &[ModelType] = &[
+    ModelType::of::<packing::PackingOnInput>(),
+    ModelType::of::<packing::PackingOnSine>(),
+    ModelType::of::<packing::LocatedPackingOnInput>(),
+    ModelType::of::<packing::LocatedPackingOnSine>(),
+    ModelType::of::<packing::event_driven::HardPackingOnInput>(),
+    ModelType::of::<packing::event_driven::HardPackingOnSine>(),
+    ModelType::of::<wedge::WedgeMap>(),
+    ModelType::of::<wedge::WedgeEventDrivenOnInput>(),
+    ModelType::of::<wedge::WedgeEventDrivenOnSine>(),
+    ModelType::of::<wedge::WedgeMolecularDynamicsOnInput>(),
+    ModelType::of::<wedge::WedgeMolecularDynamicsOnSine>(),
+    ModelType::of::<ratchet::RatchetOnInput>(),
+    ModelType::of::<ratchet::RatchetOnSine>(),
+    ModelType::of::<disk_on_two_supports::DiskOnTwoSupportsOnInput>(),
+    ModelType::of::<disk_on_two_supports::DiskOnTwoSupportsOnHarmonicTorque>(),
+    ModelType::of::<disk_on_two_supports::DiskOnTwoSupportsOnRandomSupports>(),
+    ModelType::of::<disk_on_two_supports::DiskOnTwoSupportsOnSine>(),
+];
 
 impl From<crate::error::Error> for Error {
     fn from(refused: crate::error::Error) -> Self {

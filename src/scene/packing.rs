@@ -19,13 +19,16 @@ use crate::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
 
 pub use soft_packing::{PackingState, SoftPacking};
 
-/// Packing whose base follows the inputs `base.displacement` and `base.velocity`.
-pub type PackingOnInput = SoftPacking<PredictorCorrector<VelocityVerlet>, FollowsInput>;
+/// Packing of soft disks by velocity Verlet, on a base that moves with the drive D.
+pub type PackingOn<D> = SoftPacking<PredictorCorrector<VelocityVerlet>, D>;
+/// The base follows the inputs `base.displacement` and `base.velocity`.
+pub type PackingOnInput = PackingOn<FollowsInput>;
+/// The base moves as a sine.
+pub type PackingOnSine = PackingOn<Sine>;
 
-/// Packing whose base moves as a sine.
-pub type PackingOnSine = SoftPacking<PredictorCorrector<VelocityVerlet>, Sine>;
-
-/// The same on inputs and on a sine, of fourth order with located contact events.
-pub type LocatedPackingOnInput = SoftPacking<EventStepper, FollowsInput>;
-/// See [`LocatedPackingOnInput`].
-pub type LocatedPackingOnSine = SoftPacking<EventStepper, Sine>;
+/// The same of fourth order, with located contact events.
+pub type LocatedPackingOn<D> = SoftPacking<EventStepper, D>;
+/// See [`LocatedPackingOn`].
+pub type LocatedPackingOnInput = LocatedPackingOn<FollowsInput>;
+/// See [`LocatedPackingOn`].
+pub type LocatedPackingOnSine = LocatedPackingOn<Sine>;

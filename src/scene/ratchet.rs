@@ -163,11 +163,8 @@ where
     fn info() -> ModelInfo {
         SceneInfo {
             scene: NAME,
-            identifier: if D::NAME == "input" {
-                "jostle_ratchet"
-            } else {
-                "jostle_ratchet_sine"
-            },
+            identifier: "jostle_ratchet",
+            unnamed_drive: "input",
             engine: "event-driven",
             drive: D::NAME,
             description: "Granular ratchet: hard frictional disks on a sawtooth that vibrates vertically, event-driven",

@@ -221,6 +221,7 @@ impl<E: WedgeEngine> Model for Wedge<E> {
         SceneInfo {
             scene: NAME,
             identifier: E::IDENTIFIER,
+            unnamed_drive: "sine",
             engine: E::NAME,
             drive: E::DRIVE,
             description: E::DESCRIPTION,

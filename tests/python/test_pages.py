@@ -4,13 +4,15 @@ import re
 import subprocess
 import sys
 from functools import cache
+from pathlib import Path
 
 import pytest
 from conftest import ROOT
 from snippets import RELEASE, pages
 
 IMPORTERS = (ROOT / "docs/importers.md").read_text()
-SOURCES = {path.name: path.read_text() for path in (ROOT / "tests").rglob("*") if path.suffix in (".py", ".rs")}
+TESTS = [ROOT / "tests", *ROOT.glob("crates/*/tests")]
+SOURCES = {path.name: path.read_text() for of in TESTS for path in of.rglob("*") if path.suffix in (".py", ".rs")}
 WRITTEN = {str(page.relative_to(ROOT)): page.read_text() for page in pages()}
 GENERATED = {str(page.relative_to(ROOT)): page.read_text() for page in (ROOT / "docs/generated").glob("*.md")}
 EVERYTHING = WRITTEN | GENERATED
@@ -24,8 +26,8 @@ def named(pattern: str, texts: dict[str, str] = EVERYTHING) -> set[str]:
 def test_every_test_that_the_page_of_importers_names_exists() -> None:
     everything = "\n".join(SOURCES.values())
     tests = [match[1] for match in re.finditer(r"`(?:\w+\.py::)?(test_\w+)`", IMPORTERS)]
-    tests += re.findall(r"`tests/\w+/\w+\.rs` \(`(\w+)`\)", IMPORTERS)
-    files = re.findall(r"`(?:tests/(?:\w+/)?)?(\w+\.(?:py|rs))(?:::\w+)?`", IMPORTERS)
+    tests += re.findall(r"`(?:crates/[\w-]+/)?tests/\w+/\w+\.rs` \(`(\w+)`\)", IMPORTERS)
+    files = re.findall(r"`(?:(?:crates/[\w-]+/)?tests/(?:\w+/)?)?(\w+\.(?:py|rs))(?:::\w+)?`", IMPORTERS)
     assert len(tests) > 10
     assert len(files) > 10
     assert [name for name in files if name not in SOURCES] == []
@@ -36,19 +38,23 @@ def test_every_test_that_the_page_of_importers_names_exists() -> None:
             assert f"def {first}{end}(" in everything, f"{first}{end}"
 
 
-def rust_files(kind: str) -> set[str]:
-    """Names of the tests, benches or examples of all packages."""
-    found = list(ROOT.glob(f"{kind}/*.rs")) + list(ROOT.glob(f"{kind}/*/main.rs"))
-    found += [path for folder in ("crates/*", "capi") for path in ROOT.glob(f"{folder}/{kind}/*.rs")]
+def rust_files(folder: Path, kind: str) -> set[str]:
+    """Names of the tests, benches or examples of a package."""
+    found = [*folder.glob(f"{kind}/*.rs"), *folder.glob(f"{kind}/*/main.rs")]
     return {path.parent.name if path.name == "main.rs" else path.stem for path in found}
 
 
-@pytest.mark.parametrize(
-    ("pattern", "kind"),
-    [(r"--test ([a-z_]+)", "tests"), (r"--bench ([a-z_]+)", "benches"), (r"--example ([a-z_]+)", "examples")],
-)
-def test_every_cargo_target_that_a_page_names_exists(pattern: str, kind: str) -> None:
-    assert sorted(named(pattern) - rust_files(kind)) == []
+@pytest.mark.parametrize("kind", ["test", "bench", "example"])
+def test_every_cargo_target_that_a_page_names_exists_in_the_package_that_it_names(kind: str) -> None:
+    plural = {"test": "tests", "bench": "benches", "example": "examples"}[kind]
+    folders = {"": ROOT, "jostle-c": ROOT / "capi"} | {path.name: path for path in ROOT.glob("crates/*")}
+    wrong = []
+    for page, text in EVERYTHING.items():
+        for command in re.findall(rf"cargo [^`\n|]*--{kind} [^`\n|]*", text):
+            package = re.search(r" -p ([a-z-]+)", command)
+            known = rust_files(folders[package[1] if package else ""], plural)
+            wrong += [f"{page}: {command}" for name in re.findall(rf"--{kind} ([a-z_]+)", command) if name not in known]
+    assert wrong == []
 
 
 def test_every_script_that_a_page_names_exists() -> None:

@@ -107,7 +107,7 @@ fn capabilities(component: &Component, version: Version) -> Attributes {
             ("providesEvaluateDiscreteStates", "false"),
         ],
     };
-    let mut attributes = vec![("modelIdentifier", component.info().identifier.into())];
+    let mut attributes = vec![("modelIdentifier", component.info().identifier.to_string())];
     attributes.extend(flags.iter().map(|(name, value)| (*name, (*value).into())));
     attributes
 }

@@ -130,7 +130,7 @@ mod tests {
             version: "1.0.0",
             name: "wheels",
             variant: vec![],
-            identifier: "mechanics_wheels",
+            identifier: "mechanics_wheels".into(),
             description: "",
             equations: "",
             structure: vec![],

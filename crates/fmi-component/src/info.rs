@@ -1,5 +1,6 @@
 //! Static facts of a model: names, default experiment, and the whole numbers that decide which variables it has.
 
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 /// Static facts of a model, for the model description and the documentation page.
@@ -14,7 +15,7 @@ pub struct ModelInfo {
     /// What tells apart models of one name, as pairs of key and value: `("engine", "event-driven")`. Empty for most.
     pub variant: Vec<(&'static str, &'static str)>,
     /// Model identifier of FMI: file name and C identifier at once, such as `mechanics_pendulum`.
-    pub identifier: &'static str,
+    pub identifier: Cow<'static, str>,
     /// One sentence.
     pub description: &'static str,
     /// HTML fragment with the equations and their sources, for the documentation page.
@@ -35,7 +36,7 @@ impl ModelInfo {
             version,
             name,
             variant: Vec::new(),
-            identifier: name,
+            identifier: Cow::Borrowed(name),
             description,
             equations: "",
             structure: Vec::new(),

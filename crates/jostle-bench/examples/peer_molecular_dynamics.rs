@@ -1,6 +1,6 @@
 //! Molecular dynamics of a packing read from a file, for measurements beside other programs.
 //!
-//! `cargo run --release --example peer_molecular_dynamics -- FILE STEPS TIME_STEP`
+//! `cargo run --release -p jostle-bench --example peer_molecular_dynamics -- FILE STEPS TIME_STEP`
 //!
 //! FILE: first line `count width height`, then `radius x y vx vy omega` of each disk, with the corner of the box at the
 //! origin. Laws, masses and motion of the bottom are those of the case in benches/peers/README.md: surface density

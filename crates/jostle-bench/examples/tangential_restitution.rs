@@ -1,5 +1,5 @@
 //! Tangential restitution e_t against |u_t / u_n| as CSV, the data of P Fig. 4.5:
-//! `cargo run --release --example tangential_restitution`.
+//! `cargo run --release -p jostle-bench --example tangential_restitution`.
 //!
 //! A disk of 4.5 g at a wall: k_n = 4.5e6 N/m, gamma_n = 9.84 kg/s, mu = 0.1. Columns: stiffness ratio kappa,
 //! |u_t / u_n|, e_t, e_t of the full-sliding formula (4.75), e_n, and from which ratio on the law slides to the end.

@@ -1,6 +1,6 @@
 //! How molecular dynamics converges to hard disks as contacts stiffen, as CSV.
 //!
-//! `cargo run --release --example two_engines`; drawn by `python -m jostle_lab figure engines`.
+//! `cargo run --release -p jostle-bench --example two_engines`; drawn by `python -m jostle_lab figure engines`.
 #![allow(clippy::unwrap_used)] // the module is shared with the test of the same name
 
 #[path = "../../../tests/support/four_disks.rs"]

@@ -1,5 +1,5 @@
 //! The wedge map with two laws that no scene has, as CSV, for P Figs 6.6 and 6.9:
-//! `cargo run --release --example wedge_other_laws -- LAW MU KAPPA APERTURE SECONDS SEED TILT...`, angles in degrees.
+//! `cargo run --release -p jostle-bench --example wedge_other_laws -- LAW MU KAPPA APERTURE SECONDS SEED TILT...`, angles in degrees.
 //!
 //! LAW is `rigid`, infinitely stiff tangential springs, `e_t = max(0, 1 - 3 mu (1 + e_n) |u_n / u_t|)`: sliding friction that at most
 //! stops the surfaces, which is what [`Coulomb`] does. Or `recipe`, the one printed after P 4.79: full sliding (4.75)

@@ -1,6 +1,6 @@
 //! Error against work of the engines of soft disks, as lines of CSV.
 //!
-//! `cargo run --release --example work_precision [CASE]`, CASE one of impact, pile, packing; without it all.
+//! `cargo run --release -p jostle-bench --example work_precision [CASE]`, CASE one of impact, pile, packing; without it all.
 //!
 //! Columns: case, method, setting (time step in seconds), error, CPU seconds (median of five runs), evaluations (passes
 //! over all contacts). Errors: of an impact the velocities afterwards relative to those before, root mean square over

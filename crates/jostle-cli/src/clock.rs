@@ -25,6 +25,7 @@ impl Model for Clock {
         SceneInfo {
             scene: "clock",
             identifier: "jostle_clock",
+            unnamed_drive: "sine",
             engine: "none",
             drive: "sine",
             description: "Hands that turn",

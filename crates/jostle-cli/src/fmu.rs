@@ -71,7 +71,7 @@ impl Fmu {
         let program = std::env::current_exe().map_err(|error| Failure::file("this program".as_ref(), error))?;
         // Beside the program; tests and examples run one folder below the libraries.
         let folders: Vec<_> = program.ancestors().skip(1).take(2).collect();
-        let library = find_library(component.info().identifier, &folders)?;
+        let library = find_library(&component.info().identifier, &folders)?;
         Ok(fmi_bundle::write(&component, version, &library, &self.out)?)
     }
 }

@@ -12,8 +12,6 @@ use super::DiskOnTwoSupportsScene;
 pub trait DiskOnTwoSupportsDrive: Excitation {
     /// Name on the command line and in the instantiation token.
     const NAME: &'static str;
-    /// Model identifier.
-    const IDENTIFIER: &'static str;
     /// One sentence.
     const DESCRIPTION: &'static str;
 

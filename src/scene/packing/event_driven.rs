@@ -136,11 +136,8 @@ impl<E: HardEngine> Model for HardPacking<E> {
     fn info() -> ModelInfo {
         SceneInfo {
             scene: NAME,
-            identifier: if E::Drive::STEERED {
-                "jostle_packing_event_driven"
-            } else {
-                "jostle_packing_event_driven_sine"
-            },
+            identifier: "jostle_packing_event_driven",
+            unnamed_drive: "input",
             engine: "event-driven",
             drive: E::Drive::NAME,
             description: "Packing of hard frictional disks in a box on a vibrating bottom, event-driven",

@@ -12,8 +12,8 @@ use super::rows;
 pub trait SoftMethod: Stepper {
     /// Name on the command line.
     const NAME: &'static str;
-    /// Model identifier on a base that follows inputs, and on one that moves as a sine.
-    const IDENTIFIERS: [&'static str; 2];
+    /// Model identifier on a base that follows inputs.
+    const IDENTIFIER: &'static str;
     /// One sentence.
     const DESCRIPTION: &'static str;
 
@@ -26,7 +26,7 @@ pub trait SoftMethod: Stepper {
 
 impl<I: Integrator> SoftMethod for PredictorCorrector<I> {
     const NAME: &'static str = "molecular-dynamics";
-    const IDENTIFIERS: [&'static str; 2] = ["jostle_packing", "jostle_packing_sine"];
+    const IDENTIFIER: &'static str = "jostle_packing";
     const DESCRIPTION: &'static str =
         "Packing of frictional disks in a box on a vibrating bottom, by molecular dynamics";
 
@@ -43,7 +43,7 @@ impl<I: Integrator> SoftMethod for PredictorCorrector<I> {
 
 impl SoftMethod for EventStepper {
     const NAME: &'static str = "molecular-dynamics-located";
-    const IDENTIFIERS: [&'static str; 2] = ["jostle_packing_located", "jostle_packing_located_sine"];
+    const IDENTIFIER: &'static str = "jostle_packing_located";
     const DESCRIPTION: &'static str = "Packing of frictional disks in a box on a vibrating bottom, by molecular \
         dynamics of fourth order with located contact events";
 

@@ -196,7 +196,8 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
     fn info() -> ModelInfo {
         SceneInfo {
             scene: NAME,
-            identifier: S::IDENTIFIERS[usize::from(!D::STEERED)],
+            identifier: S::IDENTIFIER,
+            unnamed_drive: "input",
             engine: S::NAME,
             drive: D::NAME,
             description: S::DESCRIPTION,

@@ -57,7 +57,7 @@ pub trait WedgeEngine: Sized + Send + 'static {
     const NAME: &'static str;
     /// Name of the drive.
     const DRIVE: &'static str;
-    /// Model identifier.
+    /// Model identifier on a sine.
     const IDENTIFIER: &'static str;
     /// One sentence.
     const DESCRIPTION: &'static str;

@@ -237,11 +237,7 @@ impl<D: BaseDrive + FirstHit> WedgeEngine for EventDriven<D> {
     type State = WedgeState<D>;
     const NAME: &'static str = "event-driven";
     const DRIVE: &'static str = D::NAME;
-    const IDENTIFIER: &'static str = if D::STEERED {
-        "jostle_wedge_event_driven_input"
-    } else {
-        "jostle_wedge_event_driven"
-    };
+    const IDENTIFIER: &'static str = "jostle_wedge_event_driven";
     const DESCRIPTION: &'static str = "Disk that bounces in a vibrating wedge, exactly from impact to impact";
     const AT_START: AtStart = AtStart {
         place: &["seed"],

@@ -27,11 +27,7 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
     type State = State<D, verlet::Disks>;
     const NAME: &'static str = "molecular-dynamics";
     const DRIVE: &'static str = D::NAME;
-    const IDENTIFIER: &'static str = if D::STEERED {
-        "jostle_wedge_molecular_dynamics_input"
-    } else {
-        "jostle_wedge_molecular_dynamics"
-    };
+    const IDENTIFIER: &'static str = "jostle_wedge_molecular_dynamics";
     const DESCRIPTION: &'static str = "Disk that bounces in a vibrating wedge, by molecular dynamics";
     const AT_START: AtStart = AtStart {
         place: &[],

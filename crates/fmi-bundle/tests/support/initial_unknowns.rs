@@ -45,7 +45,7 @@ pub fn differences(component: &Component, trials: &Trials) -> Vec<String> {
             let missing = seen - &said[name];
             let idle = &said[name] - if whole(name) { &of_reals } else { seen };
             if !(missing.is_empty() && idle.is_empty()) {
-                let identifier = component.info().identifier;
+                let identifier = &component.info().identifier;
                 wrong.push(format!(
                     "{identifier}, {version:?}: {name} depends on {missing:?} too, and never on {idle:?}"
                 ));
@@ -219,7 +219,7 @@ fn observed(component: &Component, trials: &Trials) -> Lists {
             break;
         }
     }
-    let identifier = component.info().identifier;
+    let identifier = &component.info().identifier;
     assert!(
         accepted >= trials.points / 2,
         "{identifier} accepts {accepted} starting points only"

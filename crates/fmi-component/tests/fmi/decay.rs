@@ -20,7 +20,7 @@ impl Model for Decay {
             version: env!("CARGO_PKG_VERSION"),
             name: "decay",
             variant: vec![],
-            identifier: "decay",
+            identifier: "decay".into(),
             description: "Exponential decay",
             equations: "<p>x' = -x</p>",
             structure: vec![],

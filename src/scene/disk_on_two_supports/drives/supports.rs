@@ -4,9 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::DiskOnTwoSupportsDrive;
 use crate::drive::excitation::{NoiseSign, RandomSupports, SineSupports, Vibration};
-use crate::scene::base_drive::sine_of;
 use crate::scene::disk_on_two_supports::DiskOnTwoSupportsScene;
 use crate::scene::disks_on_base::names;
+use crate::scene::drives::sine::sine_of;
 use crate::scene::{Row, TIME, Unit, Values};
 
 const SIGNS: &[(&str, &str)] = &[
@@ -17,7 +17,6 @@ const SIGNS: &[(&str, &str)] = &[
 
 impl DiskOnTwoSupportsDrive for RandomSupports {
     const NAME: &'static str = "random-supports";
-    const IDENTIFIER: &'static str = "jostle_three_disk_random_supports";
     const DESCRIPTION: &'static str = "Disk on two supports that vibrate randomly";
     const POSITIONS_AT_START: &'static [&'static str] = &["seed", "support.noise", "support.amplitude"];
     const VELOCITIES_AT_START: &'static [&'static str] = &["contact.normal_damping", "support.angular_frequency"];
@@ -133,7 +132,6 @@ fn support_rows<const INDEX: usize>(which: &str) -> Vec<Row<DiskOnTwoSupportsSce
 
 impl DiskOnTwoSupportsDrive for SineSupports {
     const NAME: &'static str = "sine";
-    const IDENTIFIER: &'static str = "jostle_three_disk_sine";
     const DESCRIPTION: &'static str = "Disk on two supports that vibrate sinusoidally";
     const POSITIONS_AT_START: &'static [&'static str] = &[
         TIME,

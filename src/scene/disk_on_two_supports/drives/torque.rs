@@ -13,7 +13,6 @@ const TERMINAL: &str = "torque";
 
 impl DiskOnTwoSupportsDrive for HeldTorque {
     const NAME: &'static str = "input";
-    const IDENTIFIER: &'static str = "jostle_three_disk";
     const DESCRIPTION: &'static str = "Disk on two supports that is turned by a torque";
     const TERMINAL: Option<&'static str> = Some(TERMINAL);
 
@@ -60,7 +59,6 @@ impl DiskOnTwoSupportsDrive for HeldTorque {
 
 impl DiskOnTwoSupportsDrive for HarmonicTorque {
     const NAME: &'static str = "harmonic-torque";
-    const IDENTIFIER: &'static str = "jostle_three_disk_harmonic_torque";
     const DESCRIPTION: &'static str = "Disk on two supports that is turned by a harmonic torque";
     const PERIOD: &'static [&'static str] = &["torque.angular_frequency"];
 

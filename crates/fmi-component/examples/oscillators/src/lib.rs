@@ -57,7 +57,7 @@ impl Model for Oscillators {
             version: env!("CARGO_PKG_VERSION"),
             name: "oscillators",
             variant: vec![("drive", "input")],
-            identifier: "oscillators",
+            identifier: "oscillators".into(),
             description: "Oscillators on a frame that follows an input",
             equations: "<p>m x'' = -k (x - frame) - c (x' - frame') - m g</p>",
             structure: vec![StructuralParameter {

@@ -15,18 +15,20 @@ const RUNS: usize = 5;
 
 /// Median milliseconds per simulated second, or why there is none.
 fn cost<M: Model>(gamma: f64, stiffness: f64, model: Option<i64>, seconds: f64) -> Result<f64, String> {
-    let told = |error: jostle::Error| error.to_string();
+    let message_of = |error: jostle::Error| error.to_string();
     let mut given = vec![
         ("drive.amplitude", Sine::amplitude_of(gamma, 80.0, 9.8).into()),
         ("contact.normal_stiffness", stiffness.into()),
     ];
     given.extend(model.map(|model| ("base.model", model.into())));
-    let mut simulation = Simulation::<M>::new(&[("disks", 60)], &given).map_err(told)?;
-    simulation.advance_to(SETTLE).map_err(told)?;
+    let mut simulation = Simulation::<M>::new(&[("disks", 60)], &given).map_err(message_of)?;
+    simulation.advance_to(SETTLE).map_err(message_of)?;
     let mut costs = Vec::with_capacity(RUNS);
     for run in 1..=RUNS {
         let start = ProcessTime::now();
-        simulation.advance_to(SETTLE + run as f64 * seconds).map_err(told)?;
+        simulation
+            .advance_to(SETTLE + run as f64 * seconds)
+            .map_err(message_of)?;
         costs.push(start.elapsed().as_secs_f64() / seconds * 1e3);
     }
     costs.sort_by(f64::total_cmp);

@@ -14,7 +14,9 @@ use jostle::drive::excitation::{Excitation, HarmonicTorque, HeldTorque, SupportM
 use jostle::engine::Engine;
 use jostle::engine::dem::verlet::{Gear5, Integrator, PredictorCorrector, VelocityVerlet};
 use jostle::engine::dem::{self, ContactLaws, FixedGrid};
-use jostle::engine::disk_on_two_supports::{DiskOnTwoSupports, Frame, Rig, Setup, TimeStepLimits, equilibrium};
+use jostle::engine::disk_on_two_supports::{
+    DiskOnTwoSupports, SupportFrame, TimeStepLimits, TwoSupportsRig, TwoSupportsSetup, equilibrium,
+};
 use jostle::geometry::{Disk, Wall};
 use jostle::scene::disk_on_two_supports::{
     DiskOnTwoSupportsOnHarmonicTorque, DiskOnTwoSupportsOnInput, DiskOnTwoSupportsOnRandomSupports,
@@ -25,8 +27,8 @@ use jostle::scene::{Model, Simulation};
 const TILT: f64 = 0.1;
 
 /// P 5.1 with this tangential stiffness.
-fn rig(stiffness: f64, walls: bool) -> Rig {
-    Rig {
+fn rig(stiffness: f64, walls: bool) -> TwoSupportsRig {
+    TwoSupportsRig {
         radius: 1.0,
         mass: 0.1,
         gravity: 10.0,
@@ -38,7 +40,7 @@ fn rig(stiffness: f64, walls: bool) -> Rig {
             stiffness,
             friction: 0.1,
         },
-        frames: [Frame::new(TILT - FRAC_PI_6), Frame::new(FRAC_PI_6 + TILT)],
+        frames: [SupportFrame::new(TILT - FRAC_PI_6), SupportFrame::new(FRAC_PI_6 + TILT)],
         curvature: if walls { 0.0 } else { 0.5 },
     }
 }
@@ -69,7 +71,7 @@ const HEIGHT: f64 = 5e-3;
 const SPIN: f64 = 0.2;
 
 /// One disk that falls on two walls and comes to rest, by the engine of this scene.
-fn fall(rig: Rig, step: f64, seconds: f64) -> Motion {
+fn fall(rig: TwoSupportsRig, step: f64, seconds: f64) -> Motion {
     let [x, y] = equilibrium(&rig, &[SupportMotion::REST; 2]).expect("rests");
     let torque = HeldTorque {
         torque: 0.0,
@@ -77,7 +79,7 @@ fn fall(rig: Rig, step: f64, seconds: f64) -> Motion {
         since: 0.0,
     };
     let place = [x, y + HEIGHT, 0.0];
-    let mut disk = DiskOnTwoSupports::new(Setup::new(rig, step), torque, 0.0, place, [0.0, 0.0, SPIN]);
+    let mut disk = DiskOnTwoSupports::new(TwoSupportsSetup::new(rig, step), torque, 0.0, place, [0.0, 0.0, SPIN]);
     disk.advance(seconds, false).expect("runs");
     motion(&disk)
 }
@@ -95,11 +97,11 @@ fn motion<E: Excitation>(disk: &DiskOnTwoSupports<E>) -> Motion {
 }
 
 /// The same by molecular dynamics of any number of disks.
-fn general<I: Integrator>(rig: Rig, step: f64, seconds: f64) -> Motion {
+fn general<I: Integrator>(rig: TwoSupportsRig, step: f64, seconds: f64) -> Motion {
     let [x, y] = equilibrium(&rig, &[SupportMotion::REST; 2]).expect("rests");
     // Where the disk just touches both walls, from their vertex.
     let touching = [-TILT.sin(), TILT.cos()].map(|part| part / FRAC_PI_6.cos());
-    let setup = dem::Setup {
+    let setup = dem::SoftDiskSetup {
         laws: ContactLaws {
             normal: rig.normal,
             tangential: rig.tangential,
@@ -136,7 +138,7 @@ fn against_general_molecular_dynamics(stiffness: f64) {
     let limits = TimeStepLimits::of(&rig, None);
     let exact = fall(rig, 0.1 * limits.largest, seconds);
     println!("fall on two walls, k_t = {stiffness:e} N/m, {seconds} s: step, CPU ms per simulated s, error");
-    let told = |name: &str, step: f64, (cpu, found): (f64, Motion)| {
+    let print = |name: &str, step: f64, (cpu, found): (f64, Motion)| {
         println!(
             "  {name:16} {step:9.1e} s {:9.3} ms/s  {:.1e}",
             cpu / seconds * 1e3,
@@ -145,16 +147,16 @@ fn against_general_molecular_dynamics(stiffness: f64) {
     };
     for radians in [2.0, 1.0, 0.5, 0.25] {
         let step = radians * limits.largest;
-        told("three_disk", step, timed(|| fall(rig, step, seconds)));
+        print("three_disk", step, timed(|| fall(rig, step, seconds)));
     }
     for radians in [0.1, 0.025, 0.00625] {
         let step = radians * limits.largest;
-        told(
+        print(
             "velocity Verlet",
             step,
             timed(|| general::<VelocityVerlet>(rig, step, seconds)),
         );
-        told("Gear", step, timed(|| general::<Gear5>(rig, step, seconds)));
+        print("Gear", step, timed(|| general::<Gear5>(rig, step, seconds)));
     }
 }
 
@@ -166,7 +168,7 @@ fn slide(step: f64) -> Motion {
         amplitude: 0.15,
         angular_frequency: 1.0,
     };
-    let mut disk = DiskOnTwoSupports::new(Setup::new(rig, step), torque, 0.0, [x, y, 0.0], [0.0; 3]);
+    let mut disk = DiskOnTwoSupports::new(TwoSupportsSetup::new(rig, step), torque, 0.0, [x, y, 0.0], [0.0; 3]);
     disk.advance(4.0, false).expect("runs");
     motion(&disk)
 }

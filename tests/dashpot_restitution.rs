@@ -112,19 +112,19 @@ fn scan_random_impacts(materials: u32, seed: u64) {
 }
 
 #[test]
-fn random_materials() {
+fn random_materials_have_the_restitution_of_the_reference() {
     scan_random_impacts(1_000, 11);
 }
 
 #[test]
 #[ignore = "minutes: the same, many more"]
-fn many_random_materials() {
+fn many_random_materials_have_the_restitution_of_the_reference() {
     scan_random_impacts(100_000, 12);
 }
 
 /// Balls: another inertia factor is another mobility, nothing else.
 #[test]
-fn any_inertia_factor() {
+fn any_inertia_factor_has_the_restitution_of_the_reference() {
     for kappa in [0.1, 1.0, 30.0] {
         let reference = Propagator::new(Material {
             damping_ratio: 0.1,

@@ -10,7 +10,8 @@ use jostle::drive::Sine;
 use jostle::drive::excitation::{Excitation, HarmonicTorque, HeldTorque, SineSupports, SupportMotion};
 use jostle::engine::Engine;
 use jostle::engine::disk_on_two_supports::{
-    DiskOnTwoSupports, ENERGY_INPUT, ENERGY_LOST, Frame, Rig, Setup, TimeStepLimits, equilibrium,
+    DiskOnTwoSupports, ENERGY_INPUT, ENERGY_LOST, SupportFrame, TimeStepLimits, TwoSupportsRig, TwoSupportsSetup,
+    equilibrium,
 };
 use raw_three_disk::{Motion, Raw};
 
@@ -30,8 +31,8 @@ const THESIS: Raw = Raw {
     shaking: [0.0; 2],
 };
 
-fn rig(raw: &Raw) -> Rig {
-    Rig {
+fn rig(raw: &Raw) -> TwoSupportsRig {
+    TwoSupportsRig {
         radius: raw.radius,
         mass: raw.mass,
         gravity: raw.gravity,
@@ -43,7 +44,10 @@ fn rig(raw: &Raw) -> Rig {
             stiffness: raw.tangential_stiffness,
             friction: raw.friction,
         },
-        frames: [Frame::new(raw.tilt - raw.opening), Frame::new(raw.opening + raw.tilt)],
+        frames: [
+            SupportFrame::new(raw.tilt - raw.opening),
+            SupportFrame::new(raw.opening + raw.tilt),
+        ],
         curvature: if raw.walls { 0.0 } else { 0.5 / raw.radius },
     }
 }
@@ -58,7 +62,7 @@ fn disk<E: Excitation>(
 ) -> DiskOnTwoSupports<E> {
     let rig = rig(raw);
     let step = TimeStepLimits::of(&rig, None).largest * radians;
-    DiskOnTwoSupports::new(Setup::new(rig, step), excitation, 0.0, place, rates)
+    DiskOnTwoSupports::new(TwoSupportsSetup::new(rig, step), excitation, 0.0, place, rates)
 }
 
 fn rest(raw: &Raw) -> [f64; 3] {

@@ -91,7 +91,7 @@ fn a_step_interrupted_by_events_is_one_step() {
 }
 
 #[test]
-fn any_way_to_a_time_gives_the_same_bits_under_a_held_torque() {
+fn a_held_torque_gives_the_same_bits_by_any_steps() {
     any_way_there_gives_the_same_bits::<HeldTorque>(&[
         ("torque", (-0.14).into()),
         ("disk.initial_angular_velocity", 1.0.into()),
@@ -100,7 +100,7 @@ fn any_way_to_a_time_gives_the_same_bits_under_a_held_torque() {
 }
 
 #[test]
-fn any_way_to_a_time_gives_the_same_bits_under_a_harmonic_torque() {
+fn a_harmonic_torque_gives_the_same_bits_by_any_steps() {
     any_way_there_gives_the_same_bits::<HarmonicTorque>(&[
         ("torque.amplitude", 0.2.into()),
         ("torque.angular_frequency", 40.0.into()),
@@ -108,12 +108,12 @@ fn any_way_to_a_time_gives_the_same_bits_under_a_harmonic_torque() {
 }
 
 #[test]
-fn any_way_to_a_time_gives_the_same_bits_on_random_supports() {
+fn random_supports_give_the_same_bits_by_any_steps() {
     any_way_there_gives_the_same_bits::<RandomSupports>(&[]);
 }
 
 #[test]
-fn any_way_to_a_time_gives_the_same_bits_on_sinusoidal_supports() {
+fn sinusoidal_supports_give_the_same_bits_by_any_steps() {
     any_way_there_gives_the_same_bits::<SineSupports>(&[("drive.phase_difference", 1.0.into())]);
 }
 
@@ -192,7 +192,7 @@ fn assert_mirrored<M: Model>(one: &Simulation<M>, other: &Simulation<M>) {
 }
 
 #[test]
-fn a_mirrored_disk_turns_the_other_way_to_the_bit() {
+fn a_mirrored_disk_turns_oppositely_to_the_bit() {
     let run = |sign: f64| {
         let more = [
             ("tilt", (0.2 * sign).into()),

@@ -49,7 +49,7 @@ fn run(setting: &Setting, stiffness: f64, torque: HarmonicTorque, forgotten: u32
 
 /// Overlap shifts the limits, inertia adds to the slides: each brings 5.9 closer, and both come within 1e-4.
 #[test]
-fn closed_form_comes_as_close_as_its_corrections_say() {
+fn the_error_of_the_closed_form_is_within_its_corrections() {
     let setting = Setting::THESIS.tilted(0.08 * std::f64::consts::PI);
     let stiffness = 1e3;
     let torque = HarmonicTorque {

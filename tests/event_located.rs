@@ -8,7 +8,7 @@ mod support;
 use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::{FollowsInput, Sine};
 use jostle::engine::Engine;
-use jostle::engine::dem::{ContactLaws, EventLocated, Setup, TimeStepLimits, Verlet};
+use jostle::engine::dem::{ContactLaws, EventLocated, SoftDiskSetup, TimeStepLimits, Verlet};
 use jostle::geometry::{Disk, Wall};
 use support::order;
 use support::reference_impact::Impact;
@@ -42,7 +42,7 @@ fn disk(x: f64, y: f64, radius: f64) -> Disk {
 
 /// A disk thrown at the floor, without gravity. The touch falls at the fraction `phase` of a time step.
 fn impact(laws: ContactLaws, velocity: [f64; 3], time_step: f64, phase: f64) -> [f64; 3] {
-    let setup = Setup {
+    let setup = SoftDiskSetup {
         laws,
         walls: vec![Wall::vibrating_floor()],
         masses: vec![mass(RADIUS)],
@@ -143,7 +143,7 @@ fn binary_collisions_have_the_restitution_of_their_effective_mass() {
         let masses = vec![mass(0.015), mass(0.025)];
         let effective_mass = 1.0 / (1.0 / masses[0] + 1.0 / masses[1]);
         let laws = laws(damping, 0.77, 0.1);
-        let setup = Setup {
+        let setup = SoftDiskSetup {
             laws,
             walls: Vec::new(),
             time_step: TimeStepLimits::event_located(&laws, &masses, None, 1e-8).default,
@@ -169,7 +169,7 @@ fn free_collisions_keep_momentum_and_angular_momentum() {
     let radii = [0.015, 0.025];
     let masses = radii.map(mass);
     let spin_error = |time_step: f64| {
-        let setup = Setup {
+        let setup = SoftDiskSetup {
             laws: laws(0.5, 0.77, 0.4),
             walls: Vec::new(),
             masses: masses.to_vec(),
@@ -205,7 +205,7 @@ fn free_collisions_keep_momentum_and_angular_momentum() {
 /// y = -g t^2 / 2, whatever the grid and wherever one looks; and a disk at rest on a plane stays there.
 #[test]
 fn free_fall_and_rest_are_exact() {
-    let setup = |walls: Vec<Wall>| Setup {
+    let setup = |walls: Vec<Wall>| SoftDiskSetup {
         laws: laws(0.1, 0.77, 0.1),
         walls,
         masses: vec![mass(RADIUS)],
@@ -257,7 +257,7 @@ fn lasting_contact_follows_the_driven_oscillator() {
         (-rate * end).exp() * (y0 * (damped * end).cos() + (v0 + rate * y0) / damped * (damped * end).sin());
     let rest = RADIUS - mass * 9.8 / stiffness;
     let errors = [11.0, 22.0, 44.0, 88.0].map(|steps| {
-        let setup = Setup {
+        let setup = SoftDiskSetup {
             laws: laws(damping, 0.77, 0.1),
             walls: vec![Wall::vibrating_floor()],
             masses: vec![mass],
@@ -289,8 +289,8 @@ struct Case {
 }
 
 impl Case {
-    fn setup(&self, time_step: f64) -> (Setup, Sine) {
-        let setup = Setup {
+    fn setup(&self, time_step: f64) -> (SoftDiskSetup, Sine) {
+        let setup = SoftDiskSetup {
             laws: laws(0.1, 0.77, 0.1),
             walls: vec![
                 Wall::vibrating_floor(),

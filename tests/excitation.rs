@@ -4,7 +4,7 @@ use jostle::drive::excitation::{Excitation, HarmonicTorque, HeldTorque, NoiseSig
 
 /// The piece of an excitation is what its formula says.
 #[test]
-fn pieces_follow_their_formulas() {
+fn excitations_follow_their_formulas() {
     let torque = HarmonicTorque {
         amplitude: 0.3,
         angular_frequency: 7.0,

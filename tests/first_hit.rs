@@ -268,7 +268,7 @@ fn chatter_keeps_its_digits() {
 
 /// Any sizes and signs give a time, and soon.
 #[test]
-fn delays_are_delays() {
+fn delays_of_extreme_flights_are_never_negative_or_nan() {
     let sizes = [0.0, 1e-30, 1e-17, 1e-3, 1.0, 1e6].map(|size| [size, -size]).concat();
     let mut input = FollowsInput::uniform(0.0, 0.0, 0.0);
     input.set_target(0.0, 1e-3, 1e-5, 0.02);

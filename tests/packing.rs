@@ -152,7 +152,7 @@ fn a_gap_too_wide_for_two_supports_takes_the_disk_in() {
 }
 
 #[test]
-fn a_third_disk_in_the_way_becomes_the_support() {
+fn a_third_disk_that_blocks_the_place_becomes_the_support() {
     // A pebble in the middle of two large disks: a large disk on top must not sink into it.
     packed(&[1.0, 1.0, 0.5, 1.0, 0.2, 1.0, 0.05, 1.0, 1.0], 4.0);
     packed(&[0.1, 0.1, 0.1, 0.1, 0.1, 1.0, 0.1, 0.1, 1.0], 2.0);
@@ -212,8 +212,9 @@ fn impossible_boxes_and_disks_are_refused_by_name() {
         );
     }
     let error = advancing_front(&[0.1, 0.21], 0.4).unwrap_err().to_string();
-    let told = "disk.radius = 0.21 m (disk 2) is not allowed: at most half of box.width = 0.4 m, that is 0.2 m. Widen";
-    assert!(error.starts_with(told), "{error}");
+    let message =
+        "disk.radius = 0.21 m (disk 2) is not allowed: at most half of box.width = 0.4 m, that is 0.2 m. Widen";
+    assert!(error.starts_with(message), "{error}");
 }
 
 proptest! {

@@ -91,7 +91,7 @@ fn histogram_matches_the_corrected_density() {
 
 /// Mean and mean square over the phase by Simpson's rule; beyond x = 1 they are 1/(2x) and 1/2 (P 2.45, 2.46).
 #[test]
-fn moments_match() {
+fn moments_of_the_random_phase_are_those_of_the_integral() {
     for (seed, ratio) in (100_u64..).zip(RATIOS) {
         let (first, last) = visible(ratio);
         let moment = |power: i32| {
@@ -134,7 +134,7 @@ fn slow_disks_meet_the_base_at_its_top() {
 
 /// On a slope n_y scales the wall's reach; under a ceiling the base comes down.
 #[test]
-fn tilted_walls_and_ceilings() {
+fn the_random_phase_holds_for_tilted_walls_and_ceilings() {
     let base = RandomPhase { peak_velocity: 0.3 };
     let draw = |base: RandomPhase, v_n: f64, up: f64| base.sample(&mut Pcg64::seed_from_u64(9), v_n, up);
     let flat = RandomPhase { peak_velocity: 0.15 };

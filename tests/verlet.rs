@@ -8,7 +8,7 @@ use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::{FollowsInput, Sine};
 use jostle::engine::Engine;
 use jostle::engine::dem::verlet::{Gear5, Integrator, PredictorCorrector, VelocityVerlet};
-use jostle::engine::dem::{ContactLaws, FixedGrid, Setup, Verlet};
+use jostle::engine::dem::{ContactLaws, FixedGrid, SoftDiskSetup, Verlet};
 use jostle::geometry::{Disk, Wall};
 use support::order;
 use support::reference_impact::Impact;
@@ -38,7 +38,7 @@ fn at_rest() -> FollowsInput {
 
 /// A disk thrown at the floor, without gravity. The touch falls at the fraction `phase` of a time step.
 fn impact<I: Integrator>(laws: ContactLaws, velocity: [f64; 3], time_step: f64, phase: f64) -> [f64; 3] {
-    let setup = Setup {
+    let setup = SoftDiskSetup {
         laws,
         walls: vec![Wall::vibrating_floor()],
         masses: vec![mass(RADIUS)],
@@ -151,7 +151,7 @@ fn binary_collisions_have_the_restitution_of_their_effective_mass() {
         let masses = vec![mass(0.015), mass(0.025)];
         let effective_mass = 1.0 / (1.0 / masses[0] + 1.0 / masses[1]);
         let laws = laws(damping, 0.77, 0.1);
-        let setup = Setup {
+        let setup = SoftDiskSetup {
             laws,
             walls: Vec::new(),
             masses,
@@ -185,7 +185,7 @@ fn free_collision<I: Integrator>() -> f64 {
         },
     ];
     let masses = vec![mass(0.015), mass(0.025)];
-    let setup = Setup {
+    let setup = SoftDiskSetup {
         laws: laws(0.5, 0.77, 0.4),
         walls: Vec::new(),
         masses: masses.clone(),
@@ -229,7 +229,7 @@ fn free_collisions_keep_momentum_and_angular_momentum() {
 /// Free fall is exact: y = -g t^2 / 2, whatever the grid and wherever one looks.
 #[test]
 fn free_fall_is_exact() {
-    let setup = Setup {
+    let setup = SoftDiskSetup {
         laws: laws(0.1, 0.77, 0.1),
         walls: Vec::new(),
         masses: vec![mass(RADIUS)],
@@ -261,7 +261,7 @@ fn driven_oscillator<I: Integrator>(steps_a_period: f64) -> f64 {
     let (natural, rate) = ((stiffness / mass).sqrt(), damping / (2.0 * mass));
     let damped = (natural * natural - rate * rate).sqrt();
     let period = std::f64::consts::TAU / damped;
-    let setup = Setup {
+    let setup = SoftDiskSetup {
         laws: laws(damping, 0.77, 0.1),
         walls: vec![Wall::vibrating_floor()],
         masses: vec![mass],
@@ -323,7 +323,7 @@ fn lasting_contact_follows_the_driven_oscillator() {
 #[test]
 fn closed_contacts_are_those_that_overlap() {
     for friction in [0.1, 0.0] {
-        let setup = Setup {
+        let setup = SoftDiskSetup {
             laws: laws(0.1, 0.77, friction),
             walls: vec![Wall::vibrating_floor(), Wall::left(-0.1), Wall::right(0.1)],
             masses: vec![mass(RADIUS); 12],
@@ -343,7 +343,7 @@ fn closed_contacts_are_those_that_overlap() {
             phase: 0.0,
         };
         let mut engine = Verlet::new(setup, &disks, sine);
-        let mut seen = std::collections::BTreeSet::new();
+        let mut observed = std::collections::BTreeSet::new();
         for step in 1..=400 {
             let time = 1e-3 * f64::from(step);
             engine.advance_to(time).unwrap();
@@ -355,9 +355,9 @@ fn closed_contacts_are_those_that_overlap() {
             let at_walls = places.iter().flat_map(|[x, y, _]| [y - floor, x + 0.1, 0.1 - x]);
             let count = between + at_walls.filter(|distance| *distance < RADIUS).count();
             assert_eq!(now.contacts as usize, count, "at {time} s, friction {friction}");
-            seen.insert(count);
+            observed.insert(count);
         }
-        assert!(seen.len() > 5, "{seen:?}");
+        assert!(observed.len() > 5, "{observed:?}");
 
         let (mut state, time) = (engine.state().clone(), 0.4);
         assert!(engine.fits(&state, time));
@@ -369,7 +369,7 @@ fn closed_contacts_are_those_that_overlap() {
 /// An observation between grid points that fails leaves the state and the former observation as they were.
 #[test]
 fn a_refused_observation_leaves_the_former_one() {
-    let setup = Setup {
+    let setup = SoftDiskSetup {
         laws: laws(0.1, 0.77, 0.1),
         walls: vec![Wall::vibrating_floor()],
         masses: vec![mass(RADIUS)],
@@ -384,9 +384,9 @@ fn a_refused_observation_leaves_the_former_one() {
     };
     let mut engine = Verlet::new(setup, &[disk], at_rest());
     engine.advance_to(0.002_5).unwrap();
-    let (state, seen) = (engine.state().clone(), engine.now().clone());
+    let (state, observed) = (engine.state().clone(), engine.now().clone());
     *engine.drive_mut() = FollowsInput::uniform(0.0, 1.0, 0.0);
     engine.advance_to(0.002_6).unwrap_err();
     *engine.drive_mut() = at_rest();
-    assert!(*engine.state() == state && *engine.now() == seen);
+    assert!(*engine.state() == state && *engine.now() == observed);
 }

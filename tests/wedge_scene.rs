@@ -210,8 +210,11 @@ fn stiff_contacts_become_impacts() {
                 ("time_step", (mass / stiffness).sqrt() / 300.0),
             ]);
             soft.advance_to(time).unwrap();
-            let seen = after(&|name| soft.real(name).unwrap());
-            let parts = seen.iter().zip(exact).map(|(seen, exact)| (seen / exact - 1.0).abs());
+            let observed = after(&|name| soft.real(name).unwrap());
+            let parts = observed
+                .iter()
+                .zip(exact)
+                .map(|(observed, exact)| (observed / exact - 1.0).abs());
             parts.fold(0.0, f64::max)
         })
         .collect();
@@ -221,7 +224,7 @@ fn stiff_contacts_become_impacts() {
 
 #[test]
 fn what_confines_nothing_is_refused_by_name() {
-    let told = |parameters: &[(&str, f64)]| {
+    let message_of = |parameters: &[(&str, f64)]| {
         let given: Vec<_> = parameters
             .iter()
             .map(|(name, value)| (*name, (*value).into()))
@@ -229,11 +232,11 @@ fn what_confines_nothing_is_refused_by_name() {
         Simulation::<WedgeMap>::new(&[], &given).unwrap_err().to_string()
     };
     for tilt in [0.5237, -0.5237, 1.0] {
-        let text = told(&[("wedge.tilt", tilt), ("wedge.aperture", 2.0944)]);
+        let text = message_of(&[("wedge.tilt", tilt), ("wedge.aperture", 2.0944)]);
         assert!(text.starts_with(&format!("wedge.tilt = {tilt} rad is not allowed: between -0.523596")));
         assert!(text.contains("smaller wedge.aperture"), "{text}");
     }
-    assert!(told(&[("drive.amplitude", 0.0)]).starts_with("drive.amplitude = 0"));
+    assert!(message_of(&[("drive.amplitude", 0.0)]).starts_with("drive.amplitude = 0"));
     let flat = Simulation::<WedgeMap>::new(&[], &[("wedge.aperture", 3.2.into())]);
     assert!(flat.unwrap_err().to_string().contains("from 1.047 to 3.14"));
 }
@@ -241,7 +244,7 @@ fn what_confines_nothing_is_refused_by_name() {
 /// Weakly bouncing disks: the map never piles impacts up; the moving wedge ends them at the floor and says how many, and
 /// without a floor it is told where and when, and the state is that before the step.
 #[test]
-fn chatter_ends_or_is_told() {
+fn chatter_ends_or_is_reported() {
     let mut map = wedge::<WedgeMap>(&[("collision.restitution", 0.05)]);
     map.advance_to(300.0).unwrap();
     assert!(map.integer("collisions").unwrap() < 100_000);
@@ -269,7 +272,7 @@ fn chatter_ends_or_is_told() {
 
 /// Work counts, pinned within the time that trajectories can be foretold: a change shows in the diff.
 #[test]
-fn early_work_is_as_it_was() {
+fn collision_counts_of_the_first_quarter_second_are_pinned() {
     fn counted<M: Model>() -> i64 {
         let mut wedge = wedge::<M>(&[]);
         wedge.advance_to(0.25).unwrap();

@@ -114,12 +114,12 @@ unsafe fn create(
     error: *mut c_char,
     size: usize,
 ) -> *mut JostleSimulation {
-    let told = match catch_unwind(AssertUnwindSafe(make)) {
+    let message = match catch_unwind(AssertUnwindSafe(make)) {
         Ok(Ok(simulation)) => return handle::hand_out(simulation),
         Ok(Err(refusal)) => refusal.to_string(),
         Err(panic) => describe(&*panic),
     };
     // SAFETY: passed on.
-    unsafe { text::write(&told, error, size) };
+    unsafe { text::write(&message, error, size) };
     null_mut()
 }

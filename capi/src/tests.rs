@@ -18,7 +18,7 @@ fn probe(given: &[(&str, f64)]) -> *mut JostleSimulation {
     ))
 }
 
-fn told(simulation: *const JostleSimulation) -> String {
+fn message_of(simulation: *const JostleSimulation) -> String {
     let mut text = [0 as c_char; 512];
     unsafe {
         assert!(jostle_error_text(simulation, text.as_mut_ptr(), text.len()) > 0);
@@ -43,7 +43,11 @@ fn a_panic_stays_in_its_simulation() {
         assert_eq!(jostle_advance_to(broken, 0.4), Ok);
         let bytes = saved(broken);
         assert_eq!(jostle_advance_to(broken, 0.6), Failed);
-        assert!(told(broken).contains("told to panic at 0.5 s"), "{}", told(broken));
+        assert!(
+            message_of(broken).contains("set to panic at 0.5 s"),
+            "{}",
+            message_of(broken)
+        );
         assert_eq!(jostle_advance_to(broken, 0.45), Failed);
         let mut time = 0.0;
         assert_eq!((jostle_time(broken, &mut time), time), (Ok, 0.4));
@@ -64,7 +68,7 @@ fn a_refused_step_changes_nothing() {
         assert_eq!(jostle_advance_to(simulation, 0.4), Ok);
         let before = saved(simulation);
         assert_eq!(jostle_advance_to(simulation, 0.6), StepRefused);
-        assert!(told(simulation).contains("Take a shorter step"));
+        assert!(message_of(simulation).contains("Take a shorter step"));
         assert!(saved(simulation) == before);
         assert_eq!(jostle_advance_to(simulation, 0.5), Ok);
         jostle_free(simulation);
@@ -120,7 +124,7 @@ fn texts_are_cut_between_letters_and_always_end() {
 }
 
 #[test]
-fn foreign_pointers_are_told() {
+fn foreign_pointers_are_refused_with_a_message() {
     let memory = [0_u64; 16];
     let not_ours = memory.as_ptr().cast::<JostleSimulation>().cast_mut();
     unsafe {

@@ -15,11 +15,11 @@ fn built() -> PathBuf {
 
 fn run(command: &mut Command) -> String {
     let done = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
-    let (out, told) = (
+    let (out, errors) = (
         String::from_utf8_lossy(&done.stdout),
         String::from_utf8_lossy(&done.stderr),
     );
-    assert!(done.status.success(), "{command:?}: {}\n{out}{told}", done.status);
+    assert!(done.status.success(), "{command:?}: {}\n{out}{errors}", done.status);
     out.into_owned()
 }
 
@@ -92,8 +92,8 @@ fn the_example_prints_the_bits_of_the_crate() {
     }
     let angle = packing.real("disk.angle[1]").unwrap();
     let line = printed.lines().next().unwrap();
-    let seen: f64 = line.split_whitespace().nth(4).unwrap().parse().unwrap();
-    assert_eq!(seen, angle, "{printed}");
+    let observed: f64 = line.split_whitespace().nth(4).unwrap().parse().unwrap();
+    assert_eq!(observed, angle, "{printed}");
 }
 
 #[test]

@@ -8,17 +8,17 @@ use proptest::prelude::*;
 
 fn from_toml(text: &str) -> String {
     let toml = CString::new(text.replace('\0', "?")).unwrap();
-    let mut told = vec![0_u8; 4096];
+    let mut message = vec![0_u8; 4096];
     unsafe {
-        let made = jostle_new_from_toml(toml.as_ptr(), told.as_mut_ptr().cast(), told.len());
+        let made = jostle_new_from_toml(toml.as_ptr(), message.as_mut_ptr().cast(), message.len());
         assert!(
-            !made.is_null() || told[0] != 0,
+            !made.is_null() || message[0] != 0,
             "neither a simulation nor a text: {text:?}"
         );
         jostle_free(made);
     }
-    let end = told.iter().position(|&byte| byte == 0).unwrap();
-    String::from_utf8(told[..end].to_vec()).unwrap()
+    let end = message.iter().position(|&byte| byte == 0).unwrap();
+    String::from_utf8(message[..end].to_vec()).unwrap()
 }
 
 #[test]
@@ -39,22 +39,22 @@ fn deep_and_long_texts_are_refused() {
 
 proptest! {
     #[test]
-    fn any_text_is_answered(text in "\\PC{0,200}") {
+    fn any_text_is_accepted_or_refused_with_a_message(text in "\\PC{0,200}") {
         from_toml(&text);
     }
 
     #[test]
-    fn any_setting_is_answered(name in "\\PC{0,40}", value in "\\PC{0,40}", known in 0..5_usize) {
+    fn any_setting_is_accepted_or_refused_with_a_message(name in "\\PC{0,40}", value in "\\PC{0,40}", known in 0..5_usize) {
         let known = ["seed", "gravity", "disk.radius", "drive.amplitude", "disk.angle[1]"].get(known);
         let name = CString::new(known.map_or(name, |known| known.to_string()).replace('\0', "?")).unwrap();
         let value = CString::new(value.replace('\0', "?")).unwrap();
         let setting = JostleSetting { name: name.as_ptr(), value: value.as_ptr() };
-        let mut told = [0_u8; 512];
+        let mut message = [0_u8; 512];
         unsafe {
             let scene = c"wedge".as_ptr();
-            let (none, text) = (std::ptr::null(), told.as_mut_ptr().cast());
-            let made = jostle_new(scene, none, none, 0, &setting, 1, text, told.len());
-            prop_assert!(!made.is_null() || told[0] != 0);
+            let (none, text) = (std::ptr::null(), message.as_mut_ptr().cast());
+            let made = jostle_new(scene, none, none, 0, &setting, 1, text, message.len());
+            prop_assert!(!made.is_null() || message[0] != 0);
             jostle_free(made);
         }
     }

@@ -37,8 +37,8 @@ pub fn report_defects() {
     static ONCE: std::sync::Once = std::sync::Once::new();
     ONCE.call_once(|| {
         std::panic::set_hook(Box::new(|panic| {
-            let told = panic.payload().downcast_ref::<String>();
-            if !told.is_some_and(|text| text.starts_with("told to panic")) {
+            let message = panic.payload().downcast_ref::<String>();
+            if !message.is_some_and(|text| text.starts_with("set to panic")) {
                 let input =
                     INPUT.with_borrow(|input| input.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
                 // Straight to the file, past what gathers the output of tests: the process ends here.

@@ -242,7 +242,7 @@ fn full_sliding_is_coulomb() {
 
 /// With damping there is one stick, then sliding to the end: `e_t` exceeds full sliding by that stick's share alone.
 #[test]
-fn sliding_after_the_first_stick() {
+fn one_stick_then_sliding_exceeds_full_sliding_by_the_stick_alone() {
     for (kappa, mu, c) in [(0.1, 0.1, 0.1), (1.0, 0.3, 0.5), (10.0, 1.0, 1.2), (100.0, 0.1, 0.02)] {
         let law = Dashpot::of_damping_ratio(1.0, c, 1.0, kappa, mu).unwrap();
         let restitution = law.normal_restitution(1.0);
@@ -262,7 +262,7 @@ fn sliding_after_the_first_stick() {
 }
 
 #[test]
-fn floor_and_contact_time() {
+fn velocity_floor_and_contact_time_replace_the_restitution() {
     let law = Coulomb::new(0.5, 0.1).unwrap();
     let floor = VelocityFloor::new(law, 0.01).unwrap();
     assert_eq!(floor.separation_velocity(&disk_on_wall(-1.0, 0.0)), 0.5);
@@ -284,7 +284,7 @@ fn floor_and_contact_time() {
 
 /// Impacts without approach, without slide, with enormous slide: finite impulses, none where there is none.
 #[test]
-fn degenerate_impacts() {
+fn degenerate_impacts_have_finite_impulses() {
     let law = Dashpot::new(1e4, 0.1, 0.773, 0.1).unwrap();
     let table = TabulatedDashpot::new(law, &[1.0], 0.5);
     for (u_n, u_t) in [

@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pushes_and_never_pulls() {
+    fn the_normal_force_is_never_attractive() {
         let law = LinearDashpot {
             stiffness: 1e4,
             damping: 0.1,
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn is_smooth_through_critical_damping() {
+    fn the_restitution_is_smooth_through_critical_damping() {
         let at = |c: f64| {
             LinearDashpot {
                 stiffness: 1.0,

@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reaches_the_prediction_without_jumps() {
+    fn extrapolated_motion_is_reached_without_jumps() {
         let mut base = FollowsInput::uniform(2.0, 0.1, -0.3);
         base.set_target(2.0, 0.25, 0.2, 0.7);
         let start = base.motion(2.0);

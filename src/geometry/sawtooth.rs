@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn flat_and_sharp_profiles() {
+    fn flat_and_sharp_profiles_have_exact_distances() {
         let flat = SawtoothProfile::new(6e-3, 0.0, 0.1, 4e-4).unwrap();
         for x in [-1.0, 0.0, 6e-4, 0.3] {
             let Clearance { distance, normal } = flat.clearance(0, Vector2::new(x, 2e-3));

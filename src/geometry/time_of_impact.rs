@@ -73,7 +73,7 @@ mod tests {
 
     /// Floor (pull 10), vertical wall (0), ceiling (-10).
     #[test]
-    fn walls_of_every_tilt() {
+    fn walls_of_every_tilt_are_hit_at_the_closed_form_times() {
         assert_eq!(wall(5.0, 0.0, 10.0), 1.0);
         assert_eq!(wall(0.0, 5.0, 10.0), 1.0);
         assert_eq!(wall(15.0, -10.0, 10.0), 1.0);
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn walls_overlapped_by_rounding() {
+    fn walls_overlapped_by_rounding_are_hit_at_once_or_left() {
         assert_eq!(wall(-1e-17, -1.0, 10.0), 0.0);
         assert_eq!(wall(-1e-17, -1.0, -10.0), 0.0);
         assert_eq!(wall(-1e-17, 5.0, 10.0), 1.0);
@@ -99,7 +99,7 @@ mod tests {
 
     /// `(v^2 + 2 a d).sqrt() - |v|` would lose every digit here.
     #[test]
-    fn walls_without_cancellation() {
+    fn times_to_walls_lose_no_digits() {
         assert!((wall(1e-12, -1.0, 10.0) / 1e-12 - 1.0).abs() < 1e-11);
         assert!((wall(1.0, -1.0, 1e-18) - 1.0).abs() < 1e-15);
         assert!(wall(1.0, 1e-3, 1e-300) > 1e296);
@@ -121,7 +121,7 @@ mod tests {
 
     /// Any sizes and signs, as long as their fourth powers are numbers.
     #[test]
-    fn times_are_times() {
+    fn times_of_impact_are_never_negative_or_nan() {
         let sizes = [0.0, 1e-70, 1e-17, 1e-3, 1.0, 7.0, 1e17, 1e70]
             .map(|size| [size, -size])
             .concat();

@@ -12,7 +12,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::drive::excitation::{HarmonicTorque, HeldTorque, Piece, RandomSupports, SineSupports};
 use crate::engine::disk_on_two_supports::contact::ContactForce;
-use crate::engine::disk_on_two_supports::{DiskOnTwoSupports, Record, Setup, State, Stop, TimeStepLimits, equilibrium};
+use crate::engine::disk_on_two_supports::{
+    DiskOnTwoSupports, Record, TimeStepLimits, TwoSupportsSetup, TwoSupportsState, TwoSupportsStop, equilibrium,
+};
 use crate::engine::{Engine, MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::are_sane;
 use crate::measure::BatchMeans;
@@ -76,20 +78,22 @@ pub struct DiskOnTwoSupportsReport {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DiskOnTwoSupportsState<E> {
     /// The engine's.
-    pub engine: State<E>,
+    pub engine: TwoSupportsState<E>,
     /// The last communication step and what is taken since measure.start.
     pub report: DiskOnTwoSupportsReport,
 }
 
-fn refusal(stop: Stop) -> Error {
+fn refusal(stop: TwoSupportsStop) -> Error {
     match stop {
-        Stop::NoProgress { time } => Error::Step {
+        TwoSupportsStop::NoProgress { time } => Error::Step {
             model: NAME,
             time,
             what: "no progress: contacts change more than 1000 times in one time step".into(),
             remedy: "Lower time_step, or raise contact.normal_damping.".into(),
         },
-        Stop::TooManySteps { time, steps } => Error::too_much_work(NAME, time, format!("{steps:e} time steps")),
+        TwoSupportsStop::TooManySteps { time, steps } => {
+            Error::too_much_work(NAME, time, format!("{steps:e} time steps"))
+        }
     }
 }
 
@@ -174,7 +178,7 @@ impl<E: DiskOnTwoSupportsDrive> DiskOnTwoSupportsScene<E> {
         Ok(reached)
     }
 
-    fn resume_engine(&mut self, state: &State<E>) {
+    fn resume_engine(&mut self, state: &TwoSupportsState<E>) {
         self.engine.resume(state);
         self.contacts = self.engine.observe().contacts;
     }
@@ -266,7 +270,13 @@ impl<E: DiskOnTwoSupportsDrive> Model for DiskOnTwoSupportsScene<E> {
         })?;
         let place = [rest[0], rest[1] + values.real("disk.drop_height"), 0.0];
         let rates = [0.0, 0.0, values.real("disk.initial_angular_velocity")];
-        let engine = DiskOnTwoSupports::new(Setup::new(rig, time_step), excitation, start_time, place, rates);
+        let engine = DiskOnTwoSupports::new(
+            TwoSupportsSetup::new(rig, time_step),
+            excitation,
+            start_time,
+            place,
+            rates,
+        );
         let begin = start_time.max(values.real("measure.start"));
         let mut scene = Self {
             contacts: engine.observe().contacts,

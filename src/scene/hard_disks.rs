@@ -100,8 +100,9 @@ pub trait HardDisksOnBase: DisksOnBase {
                 angular_velocity,
                 ..
             } = self.disk(disk);
-            let rim = self.radius(disk) * angular_velocity;
-            energies.kinetic += 0.5 * mass * (velocity.norm_squared() + self.inertia_factor() * rim * rim);
+            let surface_velocity = self.radius(disk) * angular_velocity;
+            energies.kinetic +=
+                0.5 * mass * (velocity.norm_squared() + self.inertia_factor() * surface_velocity * surface_velocity);
             energies.potential += mass * self.gravity() * position.y;
         }
         energies

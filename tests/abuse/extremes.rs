@@ -41,10 +41,10 @@ fn extreme(generator: &mut Pcg64, kind: &Kind) -> Value {
 
 fn describe(values: &Values, changed: &[usize]) -> String {
     let rows = values.table().variables();
-    let told = changed
+    let described = changed
         .iter()
         .map(|&row| format!("{} = {:?}", rows[row].name, values.get(row)));
-    told.collect::<Vec<_>>().join(", ")
+    described.collect::<Vec<_>>().join(", ")
 }
 
 /// Puts extreme values into some of the parameters and returns which.
@@ -147,11 +147,11 @@ pub fn extremes<M: Model>(seed: u64) -> Result<String, String> {
     let (mut trial, changed) = draw::<M>(&mut generator);
     let near = pick(&mut generator, &[0.0, 0.0, 0.0, 0.1, -3.7, 1e6, -1e6]);
     let start = if seed % 6 == 5 { far(seed) } else { near };
-    let (disks, told) = (trial.disks(), describe(&trial.values, &changed));
+    let (disks, described) = (trial.disks(), describe(&trial.values, &changed));
     if std::env::var_os("ABUSE_TELLS").is_some() {
-        eprintln!("{seed}: from {start}, {disks} disks, {told}");
+        eprintln!("{seed}: from {start}, {disks} disks, {described}");
     }
-    let fail = |what: String, time: f64| Err(format!("{what} at {time} from {start}, {disks} disks, {told}"));
+    let fail = |what: String, time: f64| Err(format!("{what} at {time} from {start}, {disks} disks, {described}"));
     let mut model = match trial.model(start, &trial.values) {
         Ok(model) => model,
         Err(error) if error.to_string().len() > 40 => return Ok("refused".into()),

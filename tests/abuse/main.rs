@@ -38,10 +38,10 @@ fn number(variable: &str, usual: u64) -> u64 {
 /// Runs the trials and gathers what went wrong. None can hang: what a step may do is bounded.
 fn run_all(name: &str, usual: u64, trial: fn(u64) -> Result<String, String>) {
     let (first, count) = (number("ABUSE_FIRST", 0), number("ABUSE_TRIALS", usual));
-    let (mut wrong, mut seen) = (Vec::new(), BTreeMap::new());
+    let (mut wrong, mut observed) = (Vec::new(), BTreeMap::new());
     for seed in first..first + count {
         match catch_unwind(|| trial(seed)) {
-            Ok(Ok(outcome)) => *seen.entry(outcome).or_insert(0) += 1,
+            Ok(Ok(outcome)) => *observed.entry(outcome).or_insert(0) += 1,
             Ok(Err(what)) => wrong.push(format!("{name} {seed}: {what}")),
             Err(panic) => {
                 let text = panic.downcast_ref::<String>().cloned();
@@ -50,7 +50,7 @@ fn run_all(name: &str, usual: u64, trial: fn(u64) -> Result<String, String>) {
             }
         }
     }
-    eprintln!("{name}: {seen:?}");
+    eprintln!("{name}: {observed:?}");
     assert!(wrong.is_empty(), "{} of {count}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
@@ -80,7 +80,7 @@ macro_rules! scenes {
 /// Trials that found something once: more impacts on the ceiling than in all, disks thrown to infinity, the resolution of
 /// time.
 #[test]
-fn what_was_mended_stays_so() {
+fn corrected_parameters_stay_corrected() {
     for outcome in [
         damaged::<RatchetOnInput>(209),
         damaged::<WedgeMolecularDynamics<FollowsInput>>(171),

@@ -6,7 +6,7 @@ use jostle::collision::{CollisionLaw, ContactTime, Coulomb, Smooth};
 use jostle::drive::{AtRandomPhase, FollowsInput, RandomPhase, Sine};
 use jostle::engine::WorkBudget;
 use jostle::engine::event_driven::{
-    EventDriven, Model, Moving, Open, Partner, Region, Settings, Stop, Unobserved, VibratingBase, Walls,
+    EventDriven, EventDrivenStop, Model, Moving, Open, Partner, Region, Settings, Unobserved, VibratingBase, Walls,
 };
 use jostle::geometry::{Disk, Vector2, Wall};
 use jostle::packing::{RadiusDistribution, advancing_front};
@@ -176,7 +176,7 @@ fn inelastic_collapse_is_reported_with_time_disk_and_partner() {
         generator: Pcg64::seed_from_u64(1),
     };
     let mut engine = boxed(Smooth::new(0.5).unwrap(), base, &disk, &[[0.0; 3]]);
-    let Stop::NoHeadway(stop) = engine.advance_to(1.0).unwrap_err() else {
+    let EventDrivenStop::NoHeadway(stop) = engine.advance_to(1.0).unwrap_err() else {
         panic!("too many events");
     };
     let fall = (2.0 * 0.01 / 9.8_f64).sqrt();
@@ -200,7 +200,7 @@ fn the_work_of_a_call_is_bounded() {
         .advance_within(10.0, &mut Unobserved, &mut WorkBudget::at_most(100))
         .unwrap_err();
     assert!(
-        matches!(stop, Stop::TooManyEvents { time, most: 100 } if (0.1..10.0).contains(&time)),
+        matches!(stop, EventDrivenStop::TooManyEvents { time, most: 100 } if (0.1..10.0).contains(&time)),
         "{stop:?}"
     );
     engine.restore(&start);

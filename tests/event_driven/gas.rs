@@ -60,8 +60,8 @@ fn sums<L: CollisionLaw>(gas: &Gas<L>, masses: &[f64], time: f64) -> (f64, Vecto
         .enumerate()
         .fold((0.0, Vector2::zeros()), |(energy, momentum), (disk, mass)| {
             let motion = gas.sample_at(time, disk);
-            let rim = gas.state().bodies[disk].radius * motion.angular_velocity;
-            let kinetic = 0.5 * mass * (motion.velocity.norm_squared() + 0.5 * rim * rim);
+            let surface_velocity = gas.state().bodies[disk].radius * motion.angular_velocity;
+            let kinetic = 0.5 * mass * (motion.velocity.norm_squared() + 0.5 * surface_velocity * surface_velocity);
             (energy + kinetic, momentum + *mass * motion.velocity)
         })
 }

@@ -32,7 +32,7 @@ const NEGATIVE: [(&str, f64); 3] = [
 
 /// F IV: 3.9 +- 0.3 cm/s (n = 0.7) and -3.2 +- 0.3 cm/s (n = 0.35), sign and rough size.
 #[test]
-fn two_velocities_of_the_paper() {
+fn two_transport_velocities_of_the_paper_are_reproduced() {
     let (forward, error) = transport(20, &POSITIVE, 10, 30.0);
     let (backward, backward_error) = transport(10, &NEGATIVE, 10, 30.0);
     println!("positive case: {:.2} +- {:.2} cm/s", 100.0 * forward, 100.0 * error);

@@ -4,7 +4,7 @@ use jostle::collision::Dashpot;
 use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
 use jostle::engine::Engine;
-use jostle::engine::dem::{ContactLaws, Setup, TimeStepLimits, Verlet};
+use jostle::engine::dem::{ContactLaws, SoftDiskSetup, TimeStepLimits, Verlet};
 use jostle::engine::event_driven::{EventDriven, Model, Moving, Open, Region, Settings, Walls};
 use jostle::geometry::{Disk, Vector2, Wall};
 
@@ -92,7 +92,7 @@ fn soft(stiffness: f64, damping: f64) -> Vec<[f64; 3]> {
     };
     let time_step = 0.3 * TimeStepLimits::verlet(&laws, &masses(), None).default;
     let walls = WALLS.to_vec();
-    let setup = Setup {
+    let setup = SoftDiskSetup {
         laws,
         walls,
         masses: masses(),

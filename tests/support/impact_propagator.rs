@@ -18,7 +18,7 @@ pub struct Material {
 }
 
 /// Propagators of one phase over a step, half of it, a quarter and so on, and what must stay positive in it.
-struct Phase {
+struct LinearPhase {
     matrix: Matrix,
     propagators: Vec<Matrix>,
     margins: Vec<Functional>,
@@ -27,8 +27,8 @@ struct Phase {
 /// All that one material needs, prepared once.
 pub struct Propagator {
     material: Material,
-    stick: Phase,
-    slip: [Phase; 2],
+    stick: LinearPhase,
+    slip: [LinearPhase; 2],
 }
 
 const STEPS_A_CONTACT: f64 = 1024.0;
@@ -62,7 +62,7 @@ fn exponential(matrix: &Matrix, time: f64) -> Matrix {
     sum
 }
 
-impl Phase {
+impl LinearPhase {
     fn new(matrix: Matrix, margins: Vec<Functional>, step: f64) -> Self {
         let propagators = (0..=HALVINGS)
             .map(|k| exponential(&matrix, step * 0.5_f64.powi(k as i32)))
@@ -129,7 +129,7 @@ impl Propagator {
         let (overlap, rate) = ([0.0, 1.0, 0.0, 0.0], [-1.0, -2.0 * c, 0.0, 0.0]);
         let force: Functional = [1.0, 2.0 * c, 0.0, 0.0];
         let force_rate: Functional = std::array::from_fn(|i| overlap[i] + 2.0 * c * rate[i]);
-        let stick = Phase::new(
+        let stick = LinearPhase::new(
             [overlap, rate, [0.0, 0.0, 0.0, -rho * kappa], [0.0, 0.0, 1.0, 0.0]],
             [1.0, -1.0]
                 .map(|sense| [mu * force[0], mu * force[1], 0.0, -sense * kappa])
@@ -137,7 +137,7 @@ impl Propagator {
             step,
         );
         let slip = [1.0, -1.0].map(|sense| {
-            Phase::new(
+            LinearPhase::new(
                 [
                     overlap,
                     rate,
@@ -190,7 +190,7 @@ impl Propagator {
     pub fn normal_restitution(damping_ratio: f64) -> f64 {
         let c = damping_ratio;
         let matrix = [[0.0, 1.0, 0.0, 0.0], [-1.0, -2.0 * c, 0.0, 0.0], [0.0; 4], [0.0; 4]];
-        let phase = Phase::new(matrix, vec![[1.0, 2.0 * c, 0.0, 0.0]], 0.125);
+        let phase = LinearPhase::new(matrix, vec![[1.0, 2.0 * c, 0.0, 0.0]], 0.125);
         -phase.run([0.0, 1.0, 0.0, 0.0]).0[1]
     }
 }

@@ -16,19 +16,19 @@ pub struct Impact {
 }
 
 /// Overlap, its rate, surface velocity, stretch of the tangential spring.
-type Phase = [f64; 4];
+type ImpactState = [f64; 4];
 
 impl Impact {
-    fn force(&self, [overlap, rate, ..]: Phase) -> f64 {
+    fn force(&self, [overlap, rate, ..]: ImpactState) -> f64 {
         self.normal_stiffness * overlap + self.normal_damping * rate
     }
 
     /// Rate of the normal force.
-    fn force_rate(&self, phase: Phase) -> f64 {
+    fn force_rate(&self, phase: ImpactState) -> f64 {
         self.normal_stiffness * phase[1] - self.normal_damping * self.force(phase) / self.mass
     }
 
-    fn derivative(&self, phase: Phase, slip: Option<f64>) -> Phase {
+    fn derivative(&self, phase: ImpactState, slip: Option<f64>) -> ImpactState {
         let [_, rate, velocity, stretch] = phase;
         let normal = self.force(phase);
         let pull = match slip {
@@ -43,8 +43,8 @@ impl Impact {
         [rate, -normal / self.mass, -3.0 * pull / self.mass, stretch_rate]
     }
 
-    fn advance(&self, phase: Phase, slip: Option<f64>, step: f64) -> Phase {
-        let add = |a: Phase, b: Phase, h: f64| std::array::from_fn(|i| a[i] + h * b[i]);
+    fn advance(&self, phase: ImpactState, slip: Option<f64>, step: f64) -> ImpactState {
+        let add = |a: ImpactState, b: ImpactState, h: f64| std::array::from_fn(|i| a[i] + h * b[i]);
         let k1 = self.derivative(phase, slip);
         let k2 = self.derivative(add(phase, k1, 0.5 * step), slip);
         let k3 = self.derivative(add(phase, k2, 0.5 * step), slip);
@@ -53,7 +53,7 @@ impl Impact {
     }
 
     /// Positive while the present phase goes on: the contact presses, and the tangential spring sticks or slips as it does.
-    fn margins(&self, phase: Phase, slip: Option<f64>) -> [f64; 2] {
+    fn margins(&self, phase: ImpactState, slip: Option<f64>) -> [f64; 2] {
         let limit = self.friction * self.force(phase);
         let keeps = match slip {
             None => limit - self.tangential_stiffness * phase[3].abs(),
@@ -74,7 +74,7 @@ impl Impact {
         let mut first = true;
         loop {
             let next = self.advance(phase, slip, step);
-            let holds = |state: Phase| self.margins(state, slip).iter().all(|margin| *margin > 0.0);
+            let holds = |state: ImpactState| self.margins(state, slip).iter().all(|margin| *margin > 0.0);
             if holds(next) || first {
                 (phase, first) = (next, false);
                 continue;

@@ -176,8 +176,8 @@ fn the_moving_wedge_is_what_brute_force_finds() {
 /// Energy per mass of the disk at `time`.
 fn energy<L: CollisionLaw, B: BaseMotion>(disk: &DiskInWedge<L, B>, time: f64) -> f64 {
     let motion = disk.sample_at(time);
-    let rim = RADIUS * motion.angular_velocity;
-    0.5 * (motion.velocity.norm_squared() + 0.5 * rim * rim) + GRAVITY * motion.position.y
+    let surface_velocity = RADIUS * motion.angular_velocity;
+    0.5 * (motion.velocity.norm_squared() + 0.5 * surface_velocity * surface_velocity) + GRAVITY * motion.position.y
 }
 
 fn balance<L: CollisionLaw, B: BaseMotion>(mut disk: DiskInWedge<L, B>) {

@@ -183,7 +183,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_failure_to_write_is_told_with_its_remedy() {
+    fn a_failure_to_write_is_reported_with_its_remedy() {
         for (kind, what) in [
             (
                 ErrorKind::NotFound,
@@ -200,10 +200,13 @@ mod tests {
             (ErrorKind::IsADirectory, "it is a folder. Give the name of a file."),
             (ErrorKind::ReadOnlyFilesystem, "read-only"),
         ] {
-            let told = cannot_write(Path::new("some/where/a.fmu"), 7, &kind.into()).to_string();
-            assert!(told.starts_with("some/where/a.fmu: ") && told.contains(what), "{told}");
+            let message = cannot_write(Path::new("some/where/a.fmu"), 7, &kind.into()).to_string();
+            assert!(
+                message.starts_with("some/where/a.fmu: ") && message.contains(what),
+                "{message}"
+            );
         }
-        let told = cannot_write(Path::new("a.fmu"), 7, &ErrorKind::PermissionDenied.into()).to_string();
-        assert!(told.contains("to write to the current folder"), "{told}");
+        let message = cannot_write(Path::new("a.fmu"), 7, &ErrorKind::PermissionDenied.into()).to_string();
+        assert!(message.contains("to write to the current folder"), "{message}");
     }
 }

@@ -204,8 +204,8 @@ impl Instance {
     }
 
     fn refused(&self, function: &str) -> Error {
-        let told = self.log.lock().map(|told| told.clone()).unwrap_or_default();
-        Error::call(format!("{function} was refused: {told}"), "Report this.")
+        let messages = self.log.lock().map(|messages| messages.clone()).unwrap_or_default();
+        Error::call(format!("{function} was refused: {messages}"), "Report this.")
     }
 }
 

@@ -24,4 +24,4 @@ mod xml;
 pub use bundle::{find_library, pack, write};
 pub use component::{Component, Notices, nominal_amplitude};
 pub use fmi_component::Version;
-pub use replay::{Report, TOLERANCE, replay};
+pub use replay::{ReplayReport, TOLERANCE, replay};

@@ -34,7 +34,7 @@ const MAKE_ANEW: &str = "Write the FMU anew.";
 
 /// What a replay saw.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Report {
+pub struct ReplayReport {
     /// Rows of the table.
     pub rows: usize,
     /// Values compared.
@@ -47,7 +47,7 @@ pub struct Report {
     pub place: Option<(String, f64)>,
 }
 
-impl Report {
+impl ReplayReport {
     /// Whether every difference is within [`TOLERANCE`].
     pub fn passes(&self) -> bool {
         self.largest <= TOLERANCE
@@ -58,7 +58,7 @@ impl Report {
 ///
 /// # Errors
 /// The file is no FMU of this crate, has no library for this platform, or the library refuses a call.
-pub fn replay(fmu: &Path) -> Result<Report> {
+pub fn replay(fmu: &Path) -> Result<ReplayReport> {
     let refused = |what: String| Error::file(fmu, what, MAKE_ANEW);
     let file = File::open(fmu).map_err(|error| Error::file(fmu, error, "Name an FMU."))?;
     let mut archive = ZipArchive::new(file).map_err(|error| refused(error.to_string()))?;
@@ -86,11 +86,11 @@ pub fn replay(fmu: &Path) -> Result<Report> {
     compare(&description.token, &trajectory, &columns, &binary)
 }
 
-fn compare(token: &str, table: &Trajectory, columns: &[Column], binary: &[u8]) -> Result<Report> {
+fn compare(token: &str, table: &Trajectory, columns: &[Column], binary: &[u8]) -> Result<ReplayReport> {
     let (inputs, outputs): (Vec<_>, Vec<_>) = (1..table.names.len()).partition(|index| columns[index - 1].input);
     let mut instance = Library::load(binary)?.instantiate(token)?;
     instance.initialize(table.rows[0][0])?;
-    let mut report = Report {
+    let mut report = ReplayReport {
         rows: table.rows.len(),
         values: 0,
         differing: 0,
@@ -119,7 +119,7 @@ fn compare(token: &str, table: &Trajectory, columns: &[Column], binary: &[u8]) -
     Ok(report)
 }
 
-impl Report {
+impl ReplayReport {
     fn note(&mut self, expected: f64, found: f64, scale: f64, (name, time): (&str, f64)) {
         self.values += 1;
         if expected.to_bits() == found.to_bits() {

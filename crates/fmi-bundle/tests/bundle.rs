@@ -112,7 +112,7 @@ fn elements_become_one_array_where_arrays_are_wanted() {
 }
 
 #[test]
-fn a_missing_library_is_told_with_the_remedy() {
+fn a_missing_library_is_reported_with_the_remedy() {
     let message = find_library("no_such_library", &[Path::new("here")])
         .unwrap_err()
         .to_string();
@@ -125,7 +125,7 @@ fn a_missing_library_is_told_with_the_remedy() {
 }
 
 #[test]
-fn a_structural_parameter_out_of_range_is_told_with_its_range() {
+fn a_structural_parameter_out_of_range_is_refused_with_its_range() {
     let message = Component::new(&MODEL, &[("bodies", 101)]).unwrap_err().to_string();
     assert!(message.contains("1 to 100"), "{message}");
     let message = Component::new(&MODEL, &[("wheels", 1)]).unwrap_err().to_string();

@@ -34,7 +34,7 @@ fn variables(structure: &StructuralParameters) -> Vec<Variable> {
 }
 
 #[test]
-fn lists_are_those_of_the_variables_that_matter_and_no_others() {
+fn initial_dependencies_are_those_that_are_observed() {
     let model = ModelType { variables, ..MODEL };
     let wrong = differences(&Component::new(&model, &[]).unwrap(), &TRIALS);
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
@@ -55,7 +55,7 @@ fn a_list_with_too_much_or_too_little_is_found() {
     };
     let wrong = differences(&Component::new(&model, &[]).unwrap(), &TRIALS);
     assert_eq!(wrong.len(), 2, "{wrong:?}");
-    for told in wrong {
-        assert!(told.contains(r#"natural.angle_rate depends on {"spring.stiffness"} too, and never on {"time"}"#));
+    for message in wrong {
+        assert!(message.contains(r#"natural.angle_rate depends on {"spring.stiffness"} too, and never on {"time"}"#));
     }
 }

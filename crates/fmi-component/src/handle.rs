@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn a_panic_unlocks() {
         let counter = Counter::hand_out(0);
-        let panics = || unsafe { Counter::enter(counter, |_| panic!("told to panic")) };
+        let panics = || unsafe { Counter::enter(counter, |_| panic!("set to panic")) };
         assert!(catch_unwind(AssertUnwindSafe(panics)).is_err());
         assert_eq!((increase(counter), free(counter)), (Ok(1), Ok(())));
     }
@@ -224,7 +224,7 @@ mod tests {
         struct Panics;
         impl Drop for Panics {
             fn drop(&mut self) {
-                panic!("told to panic");
+                panic!("set to panic");
             }
         }
         let handle = Handle::<Panics, 1>::hand_out(Panics);

@@ -32,14 +32,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_that_are_none_are_told() {
+    fn impossible_times_are_refused() {
         assert!([0.0, -1e10, 1e10].into_iter().all(is_simulated));
         assert!(
             ![f64::NAN, f64::INFINITY, -1.1e10, f64::MAX]
                 .into_iter()
                 .any(is_simulated)
         );
-        let told = check_time("start time", 1e300).map_err(|error| error.to_string());
-        assert!(told.is_err_and(|text| text.starts_with("start time = ") && text.contains("1e10 s")));
+        let message = check_time("start time", 1e300).map_err(|error| error.to_string());
+        assert!(message.is_err_and(|text| text.starts_with("start time = ") && text.contains("1e10 s")));
     }
 }

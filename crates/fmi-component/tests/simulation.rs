@@ -8,7 +8,7 @@ use oscillators::Oscillators;
 
 type Oscillation = Simulation<Oscillators>;
 
-fn told<T>(result: Result<T>) -> String {
+fn message_of<T>(result: Result<T>) -> String {
     match result {
         Ok(_) => panic!("not refused"),
         Err(error) => error.to_string(),
@@ -22,15 +22,15 @@ fn bodies(count: u32) -> Oscillation {
 #[test]
 fn refusals_name_variable_and_remedy() {
     let start = |given: &[(&str, Value)]| Oscillation::new(&[("bodies", 5)], given);
-    assert!(told(start(&[("spring.glue", 1.0.into())])).contains("drive input has no variable spring.glue"));
-    assert!(told(start(&[("damper.damping", (-1.0).into())])).contains("damper.damping = -1"));
-    assert!(told(start(&[("seed", 7.0.into())])).contains("a whole number"));
-    assert!(told(start(&[("steps", 7.into())])).contains("computed by the model"));
-    assert!(told(Oscillation::new(&[("bodies", 0)], &[])).contains("number of bodies = 0"));
-    assert!(told(Oscillation::new(&[("bodies", 101)], &[])).contains("1 to 100"));
-    assert!(told(Oscillation::new(&[("wheels", 1)], &[])).contains("one of the model oscillators: bodies"));
-    assert!(told(bodies(5).set_at(100_000, 1.0)).contains("0 to 16"));
-    assert!(told(bodies(5).value(100_000)).contains("0 to 16"));
+    assert!(message_of(start(&[("spring.glue", 1.0.into())])).contains("drive input has no variable spring.glue"));
+    assert!(message_of(start(&[("damper.damping", (-1.0).into())])).contains("damper.damping = -1"));
+    assert!(message_of(start(&[("seed", 7.0.into())])).contains("a whole number"));
+    assert!(message_of(start(&[("steps", 7.into())])).contains("computed by the model"));
+    assert!(message_of(Oscillation::new(&[("bodies", 0)], &[])).contains("number of bodies = 0"));
+    assert!(message_of(Oscillation::new(&[("bodies", 101)], &[])).contains("1 to 100"));
+    assert!(message_of(Oscillation::new(&[("wheels", 1)], &[])).contains("one of the model oscillators: bodies"));
+    assert!(message_of(bodies(5).set_at(100_000, 1.0)).contains("0 to 16"));
+    assert!(message_of(bodies(5).value(100_000)).contains("0 to 16"));
 }
 
 #[test]
@@ -38,17 +38,17 @@ fn refused_calls_change_nothing() {
     let mut row = bodies(5);
     row.advance_to(0.5).unwrap();
     let before = row.save();
-    assert!(told(row.set("body.mass", 0.2)).contains("frozen"));
-    assert!(told(row.set("frame.position", f64::NAN)).contains("frame.position"));
-    assert!(told(row.real("steps")).contains("Read it as an integer"));
-    assert!(told(row.integer("frame.reaction_force")).contains("Read it as a real"));
+    assert!(message_of(row.set("body.mass", 0.2)).contains("frozen"));
+    assert!(message_of(row.set("frame.position", f64::NAN)).contains("frame.position"));
+    assert!(message_of(row.real("steps")).contains("Read it as an integer"));
+    assert!(message_of(row.integer("frame.reaction_force")).contains("Read it as a real"));
     for end_time in [0.5, 0.0] {
-        assert!(told(row.advance_to(end_time)).contains("after 0.5 s"));
+        assert!(message_of(row.advance_to(end_time)).contains("after 0.5 s"));
     }
     for end_time in [f64::NAN, f64::INFINITY, 1e300] {
-        assert!(told(row.advance_to(end_time)).contains("to 1e10 s"));
+        assert!(message_of(row.advance_to(end_time)).contains("to 1e10 s"));
     }
-    assert!(told(row.set_start_time(0.0)).contains("has started at 0 s"));
+    assert!(message_of(row.set_start_time(0.0)).contains("has started at 0 s"));
     assert_eq!((row.save(), row.time()), (before, 0.5));
     assert!(row.integer("steps").unwrap() == 500);
 }
@@ -60,7 +60,11 @@ fn a_simulation_that_has_not_started_takes_parameters_and_computes_nothing() {
     row.set_start_time(2.0).unwrap();
     row.set("body.mass", 0.4).unwrap();
     assert_eq!((row.real("body.mass"), row.time()), (Ok(0.4), 2.0));
-    for refused in [told(row.integer("steps")), told(row.advance_to(3.0)), told(row.model())] {
+    for refused in [
+        message_of(row.integer("steps")),
+        message_of(row.advance_to(3.0)),
+        message_of(row.model()),
+    ] {
         assert!(refused.contains("has not started"), "{refused}");
     }
     row.start(row.start_time()).unwrap();
@@ -110,7 +114,7 @@ fn a_model_behind_a_pointer_gives_the_bits_of_its_type() {
     boxed.restore(&boxed.saved_from_payload(&payload).unwrap()).unwrap();
     assert_eq!(boxed.time(), 0.1);
     for damaged in [&payload[..payload.len() - 1], &[payload.as_slice(), &[0]].concat()] {
-        assert!(told(boxed.saved_from_payload(damaged)).contains("damaged"));
+        assert!(message_of(boxed.saved_from_payload(damaged)).contains("damaged"));
     }
 }
 
@@ -127,9 +131,9 @@ fn a_refused_state_changes_nothing() {
     let mut row = bodies(5);
     row.advance_to(0.5).unwrap();
     let before = row.save();
-    assert!(told(moved(&row, f64::NAN)).contains("NaN"));
+    assert!(message_of(moved(&row, f64::NAN)).contains("NaN"));
     for elsewhere in [0.0, 0.4, 0.6] {
-        let refusal = told(moved(&row, elsewhere));
+        let refusal = message_of(moved(&row, elsewhere));
         assert!(
             refusal.contains(&format!("its time is {elsewhere} s and its model's 0.5 s")),
             "{refusal}"
@@ -137,9 +141,9 @@ fn a_refused_state_changes_nothing() {
     }
     assert!(moved(&row, 0.5).is_ok());
     let larger = bodies(6);
-    assert!(told(row.restore(&larger.save())).contains("another number of bodies"));
+    assert!(message_of(row.restore(&larger.save())).contains("another number of bodies"));
     let bytes = larger.to_bytes().unwrap();
-    let refusal = told(row.restore_bytes(&bytes));
+    let refusal = message_of(row.restore_bytes(&bytes));
     assert!(
         refusal.contains("bodies=6") && refusal.contains("bodies=5"),
         "{refusal}"
@@ -147,12 +151,12 @@ fn a_refused_state_changes_nothing() {
     let mut bytes = row.to_bytes().unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
-    assert!(told(row.restore_bytes(&bytes)).contains("checksum"));
+    assert!(message_of(row.restore_bytes(&bytes)).contains("checksum"));
     assert_eq!(row.save(), before);
 }
 
 #[test]
-fn other_parameters_come_back_with_a_state() {
+fn a_restored_state_restores_its_parameters() {
     let given = [("body.mass", 0.2.into()), ("seed", 5.into())];
     let mut one = Oscillation::new(&[("bodies", 20)], &given).unwrap();
     one.advance_to(0.1).unwrap();
@@ -170,7 +174,7 @@ fn the_limit_of_work_outlives_a_model_made_anew() {
     let bytes = one.to_bytes().unwrap();
     one.limit_work(3);
     one.restore_bytes_anew(&bytes).unwrap();
-    assert!(told(one.advance_to(1.0)).contains("more than one call may do"));
+    assert!(message_of(one.advance_to(1.0)).contains("more than one call may do"));
     assert_eq!(one.to_bytes().unwrap(), bytes);
 }
 

@@ -14,7 +14,7 @@ use cpu_time::ProcessTime;
 use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
 use jostle::engine::Engine;
-use jostle::engine::dem::{ContactLaws, Setup, Verlet};
+use jostle::engine::dem::{ContactLaws, SoftDiskSetup, Verlet};
 use jostle::geometry::{Disk, Wall};
 
 const AMPLITUDE: f64 = 1.5514e-4;
@@ -80,7 +80,7 @@ fn engine(disks: &[Disk], width: f64, time_step: f64) -> Verlet<Sine> {
         friction: 0.1,
     };
     let lowered: Vec<Disk> = disks.iter().map(|disk| disk.raised(-AMPLITUDE)).collect();
-    let setup = Setup {
+    let setup = SoftDiskSetup {
         laws: ContactLaws { normal, tangential },
         walls: vec![
             Wall::vibrating_floor(),

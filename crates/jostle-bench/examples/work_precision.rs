@@ -14,7 +14,7 @@ use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
 use jostle::engine::Engine;
 use jostle::engine::dem::verlet::{Gear5, Integrator, PredictorCorrector, VelocityVerlet};
-use jostle::engine::dem::{ContactLaws, EventLocated, FixedGrid, Setup};
+use jostle::engine::dem::{ContactLaws, EventLocated, FixedGrid, SoftDiskSetup};
 use jostle::geometry::{Disk, Wall};
 use jostle::packing::{RadiusDistribution, advancing_front};
 
@@ -67,8 +67,8 @@ const METHODS: [Method; 3] = [
 ];
 
 impl Case {
-    fn setup(&self, time_step: f64) -> Setup {
-        Setup {
+    fn setup(&self, time_step: f64) -> SoftDiskSetup {
+        SoftDiskSetup {
             laws: LAWS,
             walls: self.walls.clone(),
             masses: self.disks.iter().map(|disk| mass(disk.radius)).collect(),

@@ -64,16 +64,16 @@ mod tests {
     }
 
     #[test]
-    fn wrong_assignments_are_told_apart() {
-        let told = |text| set(&[text]).unwrap_err().to_string();
-        assert!(told("rate").starts_with("--set = rate is not allowed: NAME=VALUE"));
-        assert!(told("rat=1").contains("a parameter or input"));
-        assert!(told("angle[1]=1").contains("The scene computes it"));
-        assert!(told("rate=fast").starts_with("rate = fast is not allowed: a number"));
-        assert!(told("seed=1.5").starts_with("seed = 1.5 is not allowed: a whole number"));
-        assert!(told("sense=up").starts_with("sense = up is not allowed: one of: ahead, back"));
-        assert!(told("sense=3").contains("one of: 1 ahead, 2 back"));
-        assert!(told("rate=-1").contains("from 0 to 10"));
-        assert!(told("rate=NaN").contains("from 0 to 10"));
+    fn each_wrong_assignment_has_its_own_message() {
+        let message_of = |text| set(&[text]).unwrap_err().to_string();
+        assert!(message_of("rate").starts_with("--set = rate is not allowed: NAME=VALUE"));
+        assert!(message_of("rat=1").contains("a parameter or input"));
+        assert!(message_of("angle[1]=1").contains("The scene computes it"));
+        assert!(message_of("rate=fast").starts_with("rate = fast is not allowed: a number"));
+        assert!(message_of("seed=1.5").starts_with("seed = 1.5 is not allowed: a whole number"));
+        assert!(message_of("sense=up").starts_with("sense = up is not allowed: one of: ahead, back"));
+        assert!(message_of("sense=3").contains("one of: 1 ahead, 2 back"));
+        assert!(message_of("rate=-1").contains("from 0 to 10"));
+        assert!(message_of("rate=NaN").contains("from 0 to 10"));
     }
 }

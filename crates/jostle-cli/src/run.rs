@@ -288,10 +288,10 @@ mod tests {
         let options = options(&folder, 1.0, 0.1, &["limit=0.45"]);
         let failure = run_clock(&options).unwrap_err();
         assert_eq!(failure.exit_code(), 1);
-        let told = failure.to_string();
+        let message = failure.to_string();
         assert!(
-            told.contains("the clock has stopped") && told.contains("5 rows up to t = 0.4 s"),
-            "{told}"
+            message.contains("the clock has stopped") && message.contains("5 rows up to t = 0.4 s"),
+            "{message}"
         );
         assert_eq!(lines(&options.output).len(), 6);
         std::fs::remove_dir_all(folder).unwrap();

@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_line_up() {
+    fn columns_of_a_table_are_aligned() {
         let row = |cells: [&str; 3]| cells.map(String::from).to_vec();
         assert_eq!(
             table(&[row(["a", "long", "x"]), row(["word", "b", ""])]),

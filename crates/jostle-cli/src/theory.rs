@@ -307,7 +307,7 @@ fn sane(name: &str, value: f64, low: f64) -> Result<f64, Error> {
 mod tests {
     use super::*;
 
-    fn told(assignments: &[&str]) -> String {
+    fn answer(assignments: &[&str]) -> String {
         let assignments: Vec<String> = assignments.iter().map(|text| text.to_string()).collect();
         let made = swept(&assignments).and_then(|swept| page(Quantity::Velocity, &swept));
         made.unwrap_or_else(|error| error.to_string())
@@ -315,7 +315,7 @@ mod tests {
 
     #[test]
     fn all_combinations_come_with_the_first_name_slowest() {
-        let page = told(&["tilt=0.1:0.3:3", "torque.amplitude=0.11,0.13"]);
+        let page = answer(&["tilt=0.1:0.3:3", "torque.amplitude=0.11,0.13"]);
         let lines: Vec<Vec<&str>> = page.lines().map(|line| line.split(',').collect()).collect();
         assert_eq!(lines.len(), 1 + 6);
         assert_eq!(&lines[0][..2], ["tilt", "torque.amplitude"]);
@@ -326,16 +326,16 @@ mod tests {
 
     #[test]
     fn what_is_wrong_is_named() {
-        assert!(told(&["tilt"]).contains("NAME=VALUES"));
-        assert!(told(&["tlt=1"]).contains("one of: gravity"));
-        assert!(told(&["tilt=0.1:0.2"]).contains("tilt = 0.1:0.2"));
-        assert!(told(&["tilt=NaN"]).contains("tilt = NaN"));
-        assert!(told(&["tilt=0.6"]).contains("rolls off"));
-        assert!(told(&["tilt=0.5"]).contains("opens a contact"));
-        assert!(told(&["contact.friction=0"]).contains("above 0"));
-        assert!(told(&["torque.angular_frequency=0"]).starts_with("torque.angular_frequency = 0"));
-        assert!(told(&["torque.amplitude=inf"]).starts_with("torque.amplitude = inf"));
-        assert!(told(&["tilt=0:0.1:100000", "torque.amplitude=0:1:100000"]).contains("rows"));
-        assert!(told(&["contact.normal_stiffness=1"]).contains("overlap is small"));
+        assert!(answer(&["tilt"]).contains("NAME=VALUES"));
+        assert!(answer(&["tlt=1"]).contains("one of: gravity"));
+        assert!(answer(&["tilt=0.1:0.2"]).contains("tilt = 0.1:0.2"));
+        assert!(answer(&["tilt=NaN"]).contains("tilt = NaN"));
+        assert!(answer(&["tilt=0.6"]).contains("rolls off"));
+        assert!(answer(&["tilt=0.5"]).contains("opens a contact"));
+        assert!(answer(&["contact.friction=0"]).contains("above 0"));
+        assert!(answer(&["torque.angular_frequency=0"]).starts_with("torque.angular_frequency = 0"));
+        assert!(answer(&["torque.amplitude=inf"]).starts_with("torque.amplitude = inf"));
+        assert!(answer(&["tilt=0:0.1:100000", "torque.amplitude=0:1:100000"]).contains("rows"));
+        assert!(answer(&["contact.normal_stiffness=1"]).contains("overlap is small"));
     }
 }

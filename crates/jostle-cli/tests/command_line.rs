@@ -114,7 +114,7 @@ fn wrong_arguments_end_with_code_2_and_a_remedy() {
         ),
         (&["describe", "packing", "--drive", "wind"], "one of: input, sine"),
     ];
-    for (arguments, told) in cases {
+    for (arguments, message) in cases {
         let output = if arguments[0] == "run" {
             [arguments, &["--output", path]].concat()
         } else {
@@ -123,7 +123,7 @@ fn wrong_arguments_end_with_code_2_and_a_remedy() {
         let output = jostle(&output);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(
-            text(&output.stderr).contains(told),
+            text(&output.stderr).contains(message),
             "{arguments:?}: {}",
             text(&output.stderr)
         );

@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn small_angles_are_exact() {
+    fn sines_and_cosines_of_small_angles_are_exact() {
         for angle in [0.0_f64, 1e-9, -0.1, 0.3, 0.4] {
             let (sine, cosine) = small_sine_cosine(angle);
             assert!(

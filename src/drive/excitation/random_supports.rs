@@ -20,9 +20,9 @@ pub enum NoiseSign {
 }
 
 /// Displacement and rate of one oscillator of unit variance \[1, 1/s\].
-type Phase = [f64; 2];
+type PhasePoint = [f64; 2];
 /// x, y and angle of both supports.
-type Phases = [[Phase; 3]; 2];
+type Phases = [[PhasePoint; 3]; 2];
 
 /// One step of the oscillator, exact: mean by the transition matrix, scatter by the root of the covariance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -94,7 +94,7 @@ impl GaussianStep {
     }
 
     #[inline]
-    fn after(&self, from: Phase, noise: [f64; 2]) -> Phase {
+    fn after(&self, from: PhasePoint, noise: [f64; 2]) -> PhasePoint {
         let [[xx, xv], [vx, vv]] = self.transition;
         let [first, second, third] = self.root;
         [
@@ -177,7 +177,7 @@ impl RandomSupports {
 fn draw(generator: &mut Pcg64, sign: NoiseSign) -> Phases {
     let mut normal = || -> f64 { StandardNormal.sample(generator) };
     let drawn: Phases = std::array::from_fn(|_| std::array::from_fn(|_| [normal(), normal()]));
-    let reversed = |[x, v]: Phase| [-x, -v];
+    let reversed = |[x, v]: PhasePoint| [-x, -v];
     match sign {
         NoiseSign::AsDrawn => drawn,
         NoiseSign::Reversed => drawn.map(|support| support.map(reversed)),

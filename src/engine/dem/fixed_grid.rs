@@ -8,11 +8,11 @@ use crate::engine::{Engine, WorkBudget};
 use crate::error::are_sane;
 use crate::geometry::Disk;
 
-use super::setup::{Breakdown, Setup, SoftDisks};
+use super::setup::{Breakdown, SoftDiskSetup, SoftDisks};
 
 /// State at one point of the grid of time.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
-pub struct State<D, M> {
+pub struct GridState<D, M> {
     /// Steps done: the time is `start + steps * time_step`, never a running sum.
     pub steps: u64,
     /// Motion of the base as a function of time.
@@ -29,7 +29,7 @@ pub struct State<D, M> {
     pub contacts: u32,
 }
 
-impl<D: Clone, M: Clone> Clone for State<D, M> {
+impl<D: Clone, M: Clone> Clone for GridState<D, M> {
     fn clone(&self) -> Self {
         Self {
             drive: self.drive.clone(),
@@ -62,25 +62,30 @@ pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
     const WORK_OF_STEP: f64;
 
     /// `disks` at rest, without contacts yet.
-    fn at_rest(setup: Setup, disks: &[Disk]) -> (Self, Self::Disks);
+    fn at_rest(setup: SoftDiskSetup, disks: &[Disk]) -> (Self, Self::Disks);
 
     /// What stays constant.
     fn constants(&self) -> &SoftDisks;
 
     /// Starts from positions and velocities that were set from outside: overlapping disks have just touched.
-    fn start<D>(&mut self, state: &mut State<D, Self::Disks>);
+    fn start<D>(&mut self, state: &mut GridState<D, Self::Disks>);
 
     /// Advances by one step of `duration` \[s\] that ends at `time` \[s\]; does not count it.
     ///
     /// # Errors
     /// The step cannot be done. The state is then of no use.
-    fn step<D: Drive>(&mut self, state: &mut State<D, Self::Disks>, duration: f64, time: f64) -> Result<(), Breakdown>;
+    fn step<D: Drive>(
+        &mut self,
+        state: &mut GridState<D, Self::Disks>,
+        duration: f64,
+        time: f64,
+    ) -> Result<(), Breakdown>;
 
     /// Advances on the grid until `target` steps are done.
     ///
     /// # Errors
     /// As [`Self::step`].
-    fn run<D: Drive>(&mut self, state: &mut State<D, Self::Disks>, target: u64) -> Result<(), Breakdown> {
+    fn run<D: Drive>(&mut self, state: &mut GridState<D, Self::Disks>, target: u64) -> Result<(), Breakdown> {
         while state.steps < target {
             let time = self.constants().time_of(state.steps + 1);
             self.step(state, self.constants().setup.time_step, time)?;
@@ -102,7 +107,7 @@ pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
     fn is_sane(disks: &Self::Disks) -> bool;
 
     /// Whether `state` has the lengths, indices and contacts of a state of this run, of which `own` is one.
-    fn fits<D>(&self, own: &Self::Disks, state: &State<D, Self::Disks>) -> bool;
+    fn fits<D>(&self, own: &Self::Disks, state: &GridState<D, Self::Disks>) -> bool;
 }
 
 /// Grid points closer than this fraction of a time step to a time count as that time.
@@ -115,20 +120,20 @@ const SNAP: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub struct FixedGrid<S: Stepper, D> {
     pub(super) stepper: S,
-    state: State<D, S::Disks>,
+    state: GridState<D, S::Disks>,
     /// The state at the time last asked for, if that is no grid point.
-    between: Option<State<D, S::Disks>>,
+    between: Option<GridState<D, S::Disks>>,
     /// Memory for the next such state.
-    spare: Option<State<D, S::Disks>>,
-    backup: State<D, S::Disks>,
+    spare: Option<GridState<D, S::Disks>>,
+    backup: GridState<D, S::Disks>,
 }
 
 impl<S: Stepper, D: Drive> FixedGrid<S, D> {
     /// Disks at rest where they are, at `setup.start_time`, under the drive.
-    pub fn new(setup: Setup, disks: &[Disk], drive: D) -> Self {
+    pub fn new(setup: SoftDiskSetup, disks: &[Disk], drive: D) -> Self {
         let base = drive.motion(setup.start_time);
         let (mut stepper, disks) = S::at_rest(setup, disks);
-        let mut state = State {
+        let mut state = GridState {
             steps: 0,
             drive,
             base,
@@ -182,12 +187,12 @@ impl<S: Stepper, D: Drive> FixedGrid<S, D> {
 
 impl<S: Stepper, D> FixedGrid<S, D> {
     /// The state at the time last asked for.
-    pub fn now(&self) -> &State<D, S::Disks> {
+    pub fn now(&self) -> &GridState<D, S::Disks> {
         self.between.as_ref().unwrap_or(&self.state)
     }
 
     /// What stays constant.
-    pub fn setup(&self) -> &Setup {
+    pub fn setup(&self) -> &SoftDiskSetup {
         &self.stepper.constants().setup
     }
 
@@ -203,7 +208,7 @@ impl<S: Stepper, D> FixedGrid<S, D> {
 }
 
 impl<S: Stepper, D: Drive> Engine for FixedGrid<S, D> {
-    type State = State<D, S::Disks>;
+    type State = GridState<D, S::Disks>;
     type Stop = Breakdown;
 
     fn advance_within(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<(), Breakdown> {
@@ -229,7 +234,7 @@ impl<S: Stepper, D: Drive> Engine for FixedGrid<S, D> {
     }
 
     fn fits(&self, state: &Self::State, time: f64) -> bool {
-        let Setup {
+        let SoftDiskSetup {
             time_step, start_time, ..
         } = *self.setup();
         let ahead = time - self.stepper.constants().time_of(state.steps);
@@ -250,7 +255,7 @@ impl<S: Stepper, D: Drive> Engine for FixedGrid<S, D> {
 }
 
 /// Comparisons with what is no number are false and trip no other check.
-fn check<S: Stepper, D>(state: &State<D, S::Disks>, time: f64) -> Result<(), Breakdown> {
+fn check<S: Stepper, D>(state: &GridState<D, S::Disks>, time: f64) -> Result<(), Breakdown> {
     let Motion {
         displacement,
         velocity,

@@ -20,9 +20,9 @@ mod time_step_limits;
 pub mod verlet;
 
 pub use crate::contact::ContactLaws;
-pub use fixed_grid::{FixedGrid, State, Stepper};
-pub use observables::{Energies, Observables};
-pub use setup::{Breakdown, Setup, SoftDisks};
+pub use fixed_grid::{FixedGrid, GridState, Stepper};
+pub use observables::{SoftDiskEnergies, SoftDiskObservables};
+pub use setup::{Breakdown, SoftDiskSetup, SoftDisks};
 pub use time_step_limits::TimeStepLimits;
 
 /// Disks by velocity Verlet, on a base that moves with the drive D.

@@ -6,7 +6,7 @@ use super::fixed_grid::{FixedGrid, Stepper};
 
 /// Disks and base at one instant.
 #[derive(Debug, Clone, Copy)]
-pub struct Observables<'engine> {
+pub struct SoftDiskObservables<'engine> {
     /// x, y \[m\] and angle \[rad\] of each disk.
     pub positions: &'engine [[f64; 3]],
     /// Their rates.
@@ -23,7 +23,7 @@ pub struct Observables<'engine> {
 
 /// Energies of the disks \[J\].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Energies {
+pub struct SoftDiskEnergies {
     /// Translation and rotation.
     pub kinetic: f64,
     /// In gravity, zero at height zero.
@@ -34,10 +34,10 @@ pub struct Energies {
 
 impl<S: Stepper, D> FixedGrid<S, D> {
     /// Disks and base.
-    pub fn observables(&self) -> Observables<'_> {
+    pub fn observables(&self) -> SoftDiskObservables<'_> {
         let now = self.now();
         let (positions, velocities) = self.stepper.motion(&now.disks);
-        Observables {
+        SoftDiskObservables {
             positions,
             velocities,
             base: now.base,
@@ -84,8 +84,8 @@ impl<S: Stepper, D> FixedGrid<S, D> {
     }
 
     /// Energies of the disks.
-    pub fn energies(&self) -> Energies {
-        Energies {
+    pub fn energies(&self) -> SoftDiskEnergies {
+        SoftDiskEnergies {
             kinetic: self.kinetic_energy(),
             potential: self.potential_energy(),
             elastic: self.elastic_energy(),

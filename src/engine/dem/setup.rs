@@ -5,7 +5,7 @@ use crate::geometry::{Disk, Wall};
 
 /// What stays constant during a run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Setup {
+pub struct SoftDiskSetup {
     /// Contact laws.
     pub laws: ContactLaws,
     /// Walls; those that follow the base move with the drive.
@@ -20,11 +20,11 @@ pub struct Setup {
     pub start_time: f64,
 }
 
-/// A [`Setup`] with the radii of its disks.
+/// A [`SoftDiskSetup`] with the radii of its disks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SoftDisks {
     /// Laws, walls, masses and times.
-    pub setup: Setup,
+    pub setup: SoftDiskSetup,
     /// Radii \[m\].
     pub radii: Vec<f64>,
     /// The smallest radius \[m\].
@@ -33,7 +33,7 @@ pub struct SoftDisks {
 
 impl SoftDisks {
     /// `setup` for these disks.
-    pub fn new(setup: Setup, disks: &[Disk]) -> Self {
+    pub fn new(setup: SoftDiskSetup, disks: &[Disk]) -> Self {
         let radii: Vec<f64> = disks.iter().map(|disk| disk.radius).collect();
         let smallest_radius = radii.iter().copied().fold(f64::INFINITY, f64::min);
         Self {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Phase of a contact, in which its forces are smooth functions of positions and velocities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Phase {
+pub enum ContactPhase {
     /// Disk and support do not overlap.
     Apart,
     /// They still overlap, but part faster than their surfaces recover: no force.
@@ -49,7 +49,7 @@ impl Sense {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
     /// Phase.
-    pub phase: Phase,
+    pub phase: ContactPhase,
     /// Tangential displacement lambda* at which the spring is not stretched \[m\]; used while the contact sticks.
     pub unstretched: f64,
 }
@@ -58,14 +58,14 @@ impl Contact {
     /// Whether a force acts.
     #[inline]
     pub fn is_closed(&self) -> bool {
-        matches!(self.phase, Phase::Stick | Phase::Slip(_))
+        matches!(self.phase, ContactPhase::Stick | ContactPhase::Slip(_))
     }
 
     /// Which way it slips, if it does.
     #[inline]
     pub fn slips(&self) -> Option<Sense> {
         match self.phase {
-            Phase::Slip(sense) => Some(sense),
+            ContactPhase::Slip(sense) => Some(sense),
             _ => None,
         }
     }
@@ -121,36 +121,36 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 pub fn margins(contact: &Contact, force: &ContactForce, bounds: &Bounds) -> [f64; 2] {
     let per_rate = bounds.tangential_stiffness * bounds.time;
     match contact.phase {
-        Phase::Apart => [-bounds.normal_stiffness * force.overlap, f64::INFINITY],
-        Phase::Relaxing => [bounds.normal_stiffness * force.overlap, -force.push],
-        Phase::Stick => {
+        ContactPhase::Apart => [-bounds.normal_stiffness * force.overlap, f64::INFINITY],
+        ContactPhase::Relaxing => [bounds.normal_stiffness * force.overlap, -force.push],
+        ContactPhase::Stick => {
             let rounding = ROUNDING * (force.tangential_displacement.abs() + contact.unstretched.abs());
             let room = bounds.friction * force.push - bounds.tangential_stiffness * (force.stretch.abs() - rounding);
             [force.push, room]
         }
-        Phase::Slip(_) => [force.push, per_rate * (force.slip_rate + force.slip_rounding)],
+        ContactPhase::Slip(_) => [force.push, per_rate * (force.slip_rate + force.slip_rounding)],
     }
 }
 
 /// The contact after margin `which` has become negative.
 pub fn after(contact: &Contact, force: &ContactForce, which: usize, bounds: &Bounds) -> Contact {
     let opened = if force.overlap < 0.0 {
-        Phase::Apart
+        ContactPhase::Apart
     } else {
-        Phase::Relaxing
+        ContactPhase::Relaxing
     };
     let stuck_at = |unstretched| Contact {
-        phase: Phase::Stick,
+        phase: ContactPhase::Stick,
         unstretched,
     };
     let with = |phase| Contact { phase, ..*contact };
     match (contact.phase, which) {
-        (Phase::Apart, _) | (Phase::Relaxing, 1) => stuck_at(force.tangential_displacement),
-        (Phase::Relaxing, _) => with(Phase::Apart),
-        (Phase::Stick | Phase::Slip(_), 0) => with(opened),
-        (Phase::Stick, _) => with(Phase::Slip(Sense::of(force.stretch))),
+        (ContactPhase::Apart, _) | (ContactPhase::Relaxing, 1) => stuck_at(force.tangential_displacement),
+        (ContactPhase::Relaxing, _) => with(ContactPhase::Apart),
+        (ContactPhase::Stick | ContactPhase::Slip(_), 0) => with(opened),
+        (ContactPhase::Stick, _) => with(ContactPhase::Slip(Sense::of(force.stretch))),
         // Without friction there is no force to stick by: the surfaces tangential_displacement back at once.
-        (Phase::Slip(sense), _) if bounds.friction == 0.0 => with(Phase::Slip(Sense::of(-sense.sign()))),
-        (Phase::Slip(_), _) => stuck_at(force.tangential_displacement - force.stretch),
+        (ContactPhase::Slip(sense), _) if bounds.friction == 0.0 => with(ContactPhase::Slip(Sense::of(-sense.sign()))),
+        (ContactPhase::Slip(_), _) => stuck_at(force.tangential_displacement - force.stretch),
     }
 }

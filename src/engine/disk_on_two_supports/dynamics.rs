@@ -3,13 +3,13 @@
 use crate::contact::{LinearDashpot, TangentialSpring};
 use crate::drive::excitation::{Piece, SupportMotion};
 
-use super::contact::{Contact, ContactForce, Phase, Sense};
+use super::contact::{Contact, ContactForce, ContactPhase, Sense};
 use super::runge_kutta::Vector;
-use super::support::{Frame, Kinematics, kinematics};
+use super::support::{Kinematics, SupportFrame, kinematics};
 
 /// The disk, its supports and laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rig {
+pub struct TwoSupportsRig {
     /// Radius R of the disk \[m\].
     pub radius: f64,
     /// Mass m \[kg\].
@@ -21,33 +21,33 @@ pub struct Rig {
     /// Tangential law of both contacts.
     pub tangential: TangentialSpring,
     /// Directions of the left and the right contact.
-    pub frames: [Frame; 2],
+    pub frames: [SupportFrame; 2],
     /// 1 / (R + R_i) \[1/m\]; 0 for walls.
     pub curvature: f64,
 }
 
-/// What stays constant: the [`Rig`] with what follows from it, and the time step.
+/// What stays constant: the [`TwoSupportsRig`] with what follows from it, and the time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Setup {
-    rig: Rig,
+pub struct TwoSupportsSetup {
+    rig: TwoSupportsRig,
     /// Time step \[s\].
     pub time_step: f64,
     per_mass: f64,
     per_inertia: f64,
 }
 
-impl std::ops::Deref for Setup {
-    type Target = Rig;
+impl std::ops::Deref for TwoSupportsSetup {
+    type Target = TwoSupportsRig;
 
     #[inline(always)]
-    fn deref(&self) -> &Rig {
+    fn deref(&self) -> &TwoSupportsRig {
         &self.rig
     }
 }
 
-impl Setup {
+impl TwoSupportsSetup {
     /// A rig with a time step \[s\].
-    pub fn new(rig: Rig, time_step: f64) -> Self {
+    pub fn new(rig: TwoSupportsRig, time_step: f64) -> Self {
         Self {
             rig,
             time_step,
@@ -57,7 +57,7 @@ impl Setup {
     }
 }
 
-impl Rig {
+impl TwoSupportsRig {
     /// Moment of inertia of the disk \[kg.m2\] (P 5.6).
     pub fn inertia(&self) -> f64 {
         0.5 * self.mass * self.radius * self.radius
@@ -75,7 +75,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Rates and forces at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Observables {
+pub struct TwoSupportsObservables {
     /// Rates of the quantities.
     pub rates: Vector,
     /// The left and the right contact.
@@ -118,11 +118,11 @@ impl PhaseFactors {
         let one_if = |holds: bool| f64::from(u8::from(holds));
         Self {
             closed: one_if(contact.is_closed()),
-            held: one_if(contact.phase == Phase::Stick),
+            held: one_if(contact.phase == ContactPhase::Stick),
             unstretched: contact.unstretched,
             slipping: sense * (spring.friction / spring.stiffness),
             sense,
-            relaxing: one_if(contact.phase == Phase::Relaxing),
+            relaxing: one_if(contact.phase == ContactPhase::Relaxing),
         }
     }
 }
@@ -131,7 +131,13 @@ impl PhaseFactors {
 ///
 /// The tangential force has the arm (R + R_i) / r, not R_i: so the spring is conservative though the disks overlap.
 #[inline(never)]
-pub fn rates_of<P: Piece>(setup: &Setup, piece: &P, offset: f64, disk: &Vector, factors: &[PhaseFactors; 2]) -> Vector {
+pub fn rates_of<P: Piece>(
+    setup: &TwoSupportsSetup,
+    piece: &P,
+    offset: f64,
+    disk: &Vector,
+    factors: &[PhaseFactors; 2],
+) -> Vector {
     observe(setup, piece, offset, disk, factors).rates
 }
 
@@ -147,7 +153,7 @@ struct Force {
 }
 
 #[inline(always)]
-fn force(setup: &Setup, frame: &Frame, factors: &PhaseFactors, at: &Kinematics) -> Force {
+fn force(setup: &TwoSupportsSetup, frame: &SupportFrame, factors: &PhaseFactors, at: &Kinematics) -> Force {
     let push = setup.normal.stiffness * at.overlap + setup.normal.damping * at.overlap_rate;
     let normal = factors.closed * push;
     let stretch = factors.held * (at.tangential_displacement - factors.unstretched) + factors.slipping * push;
@@ -172,8 +178,8 @@ fn force(setup: &Setup, frame: &Frame, factors: &PhaseFactors, at: &Kinematics) 
 /// of velocities and accelerations that cancel.
 #[inline(always)]
 fn account(
-    setup: &Setup,
-    (frame, factors, support): (&Frame, &PhaseFactors, &SupportMotion),
+    setup: &TwoSupportsSetup,
+    (frame, factors, support): (&SupportFrame, &PhaseFactors, &SupportMotion),
     (at, force): (&Kinematics, &Force),
     accelerations: [f64; 2],
     (speed, hurry): (f64, f64),
@@ -218,12 +224,12 @@ fn account(
 /// Rates and forces, as [`rates_of`].
 #[inline(always)]
 pub fn observe<P: Piece>(
-    setup: &Setup,
+    setup: &TwoSupportsSetup,
     piece: &P,
     offset: f64,
     disk: &Vector,
     factors: &[PhaseFactors; 2],
-) -> Observables {
+) -> TwoSupportsObservables {
     let [support_1, support_2] = &piece.supports(offset);
     let [frame_1, frame_2] = &setup.frames;
     let [factors_1, factors_2] = factors;
@@ -259,7 +265,7 @@ pub fn observe<P: Piece>(
 
     let input = left.input_power + right.input_power + torque * angle;
     let lost = left.lost_power + right.lost_power;
-    Observables {
+    TwoSupportsObservables {
         rates: [x, y, angle, acceleration[0], acceleration[1], spin_up, input, lost],
         contacts: [left, right],
     }

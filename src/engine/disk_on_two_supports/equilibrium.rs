@@ -2,7 +2,7 @@
 
 use crate::drive::excitation::SupportMotion;
 
-use super::dynamics::Rig;
+use super::dynamics::TwoSupportsRig;
 use super::support::kinematics;
 
 /// There is no place near where both contacts touch at which the disk rests on them.
@@ -15,7 +15,7 @@ pub struct NoEquilibrium;
 ///
 /// # Errors
 /// A contact would have to pull, or overlaps are no longer small.
-pub fn equilibrium(rig: &Rig, supports: &[SupportMotion; 2]) -> Result<[f64; 2], NoEquilibrium> {
+pub fn equilibrium(rig: &TwoSupportsRig, supports: &[SupportMotion; 2]) -> Result<[f64; 2], NoEquilibrium> {
     let stiffness = rig.normal.stiffness;
     // Overlap of a contact, its force along x and y, and the derivatives of that, per k_n.
     let contact = |index: usize, [x, y]: [f64; 2]| {

@@ -17,13 +17,13 @@ mod time_step_limits;
 use super::{Engine, WorkBudget};
 use crate::drive::excitation::{Excitation, Piece, SupportMotion};
 
-pub use contact::{Contact, Phase, Sense};
-pub use dynamics::{ENERGY_INPUT, ENERGY_LOST, Observables, Rig, Setup};
+pub use contact::{Contact, ContactPhase, Sense};
+pub use dynamics::{ENERGY_INPUT, ENERGY_LOST, TwoSupportsObservables, TwoSupportsRig, TwoSupportsSetup};
 pub use equilibrium::{NoEquilibrium, equilibrium};
 pub use runge_kutta::Vector;
-pub use state::{Node, Record, SlidingPoint, State};
-pub use support::Frame;
-pub use time_step::Stop;
+pub use state::{Node, Record, SlidingPoint, TwoSupportsState};
+pub use support::SupportFrame;
+pub use time_step::TwoSupportsStop;
 use time_step::{StepEvents, TimeStep};
 pub use time_step_limits::TimeStepLimits;
 
@@ -36,20 +36,20 @@ const WORK_OF_STEP: f64 = 10.0;
 /// A disk on two supports, driven by E.
 #[derive(Debug)]
 pub struct DiskOnTwoSupports<E> {
-    setup: Setup,
-    state: State<E>,
+    setup: TwoSupportsSetup,
+    state: TwoSupportsState<E>,
     /// The present time step, if it has been computed.
     events: StepEvents,
 }
 
 impl<E: Excitation> DiskOnTwoSupports<E> {
     /// A disk at `start_time` \[s\] with its tangential springs not stretched, at this position (x, y, angle) with these rates.
-    pub fn new(setup: Setup, excitation: E, start_time: f64, place: [f64; 3], rates: [f64; 3]) -> Self {
+    pub fn new(setup: TwoSupportsSetup, excitation: E, start_time: f64, place: [f64; 3], rates: [f64; 3]) -> Self {
         let mut disk = Vector::default();
         disk[..3].copy_from_slice(&place);
         disk[3..6].copy_from_slice(&rates);
         let apart = Contact {
-            phase: Phase::Apart,
+            phase: ContactPhase::Apart,
             unstretched: 0.0,
         };
         let mut start = Node {
@@ -64,20 +64,20 @@ impl<E: Excitation> DiskOnTwoSupports<E> {
             piece: excitation.piece(start_time),
             start: start_time,
         };
-        let seen = step.observe(0.0, &disk, &start.contacts);
-        start.contacts = seen.contacts.map(|force| Contact {
+        let observed = step.observe(0.0, &disk, &start.contacts);
+        start.contacts = observed.contacts.map(|force| Contact {
             phase: if force.overlap > 0.0 && force.push > 0.0 {
-                Phase::Stick
+                ContactPhase::Stick
             } else if force.overlap > 0.0 {
-                Phase::Relaxing
+                ContactPhase::Relaxing
             } else {
-                Phase::Apart
+                ContactPhase::Apart
             },
             unstretched: force.tangential_displacement,
         });
         Self {
             setup,
-            state: State {
+            state: TwoSupportsState {
                 origin: start_time,
                 step: 0,
                 start,
@@ -90,12 +90,12 @@ impl<E: Excitation> DiskOnTwoSupports<E> {
     }
 
     /// What stays fixed.
-    pub fn setup(&self) -> &Setup {
+    pub fn setup(&self) -> &TwoSupportsSetup {
         &self.setup
     }
 
     /// Continues from a state of this same disk.
-    pub fn resume(&mut self, state: &State<E>) {
+    pub fn resume(&mut self, state: &TwoSupportsState<E>) {
         self.state = state.clone();
         self.events.end = None;
     }
@@ -104,13 +104,13 @@ impl<E: Excitation> DiskOnTwoSupports<E> {
     ///
     /// # Errors
     /// The budget is too small.
-    pub fn spend(&self, end_time: f64, budget: &mut WorkBudget) -> Result<(), Stop> {
+    pub fn spend(&self, end_time: f64, budget: &mut WorkBudget) -> Result<(), TwoSupportsStop> {
         let time = self.state.time;
         let steps = (end_time - time) / self.setup.time_step;
         if budget.spend((steps * WORK_OF_STEP) as u64) {
             Ok(())
         } else {
-            Err(Stop::TooManySteps { time, steps })
+            Err(TwoSupportsStop::TooManySteps { time, steps })
         }
     }
 
@@ -124,7 +124,7 @@ impl<E: Excitation> DiskOnTwoSupports<E> {
             offset: 0.0,
             ..self.state.now
         };
-        self.state = State {
+        self.state = TwoSupportsState {
             origin: self.state.time,
             step: 0,
             start: recounted(now, self.setup.radius),
@@ -140,7 +140,7 @@ impl<E: Excitation> DiskOnTwoSupports<E> {
     ///
     /// # Errors
     /// Events follow each other without end. The state is then of no use.
-    pub fn advance(&mut self, end_time: f64, stop: bool) -> Result<bool, Stop> {
+    pub fn advance(&mut self, end_time: f64, stop: bool) -> Result<bool, TwoSupportsStop> {
         // Stopped there by an event, it has it behind it; an observation would have to decide anew, to rounding.
         if end_time == self.state.time {
             return Ok(false);
@@ -209,7 +209,7 @@ impl<E: Excitation> DiskOnTwoSupports<E> {
     }
 
     /// Computes the present time step if it has not been, and gives its end.
-    fn compute_step(&mut self, start: f64) -> Result<Node, Stop> {
+    fn compute_step(&mut self, start: f64) -> Result<Node, TwoSupportsStop> {
         if let Some(end) = self.events.end {
             return Ok(end);
         }
@@ -230,7 +230,7 @@ impl<E: Excitation> DiskOnTwoSupports<E> {
     }
 
     /// Forces and accelerations at the time reached.
-    pub fn observe(&self) -> Observables {
+    pub fn observe(&self) -> TwoSupportsObservables {
         let now = &self.state.now;
         self.time_step(self.step_start(0))
             .observe(now.offset, &now.disk, &now.contacts)
@@ -244,10 +244,10 @@ impl<E: Excitation> DiskOnTwoSupports<E> {
 }
 
 impl<E: Excitation> Engine for DiskOnTwoSupports<E> {
-    type State = State<E>;
-    type Stop = Stop;
+    type State = TwoSupportsState<E>;
+    type Stop = TwoSupportsStop;
 
-    fn advance_within(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<(), Stop> {
+    fn advance_within(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<(), TwoSupportsStop> {
         self.spend(end_time, budget)?;
         let backup = self.state.clone();
         let outcome = self.advance(end_time, false);
@@ -257,11 +257,11 @@ impl<E: Excitation> Engine for DiskOnTwoSupports<E> {
         outcome.map(|_| ())
     }
 
-    fn state(&self) -> &State<E> {
+    fn state(&self) -> &TwoSupportsState<E> {
         &self.state
     }
 
-    fn fits(&self, state: &State<E>, time: f64) -> bool {
+    fn fits(&self, state: &TwoSupportsState<E>, time: f64) -> bool {
         let step = self.setup.time_step;
         let step_start = state.origin + state.step as f64 * step;
         let within = state.time - step_start;
@@ -271,7 +271,7 @@ impl<E: Excitation> Engine for DiskOnTwoSupports<E> {
         state.time == time && state.origin.is_finite() && nodes && in_step && state.excitation.is_sane()
     }
 
-    fn restore(&mut self, state: &State<E>, _time: f64) -> Result<(), Stop> {
+    fn restore(&mut self, state: &TwoSupportsState<E>, _time: f64) -> Result<(), TwoSupportsStop> {
         self.resume(state);
         Ok(())
     }

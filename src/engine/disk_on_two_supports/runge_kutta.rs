@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn is_of_order_eight() {
+    fn the_runge_kutta_step_is_of_order_eight() {
         let (coarse, fine) = (error(1), error(2));
         let order = (coarse / fine).log2();
         assert!((7.5..9.5).contains(&order), "{coarse:e}, {fine:e}: order {order}");

@@ -133,7 +133,7 @@ impl Record {
 
 /// State of the engine: the start of the present time step, and the instant to which it was advanced.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct State<E> {
+pub struct TwoSupportsState<E> {
     /// Time of step 0 \[s\]; it moves where the inputs change.
     pub origin: f64,
     /// Number of the present time step from there.

@@ -7,14 +7,14 @@ use crate::drive::excitation::SupportMotion;
 
 /// Directions of a contact at the place where the disk just touches both supports.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Frame {
+pub struct SupportFrame {
     /// From the support to the disk.
     pub normal: [f64; 2],
     /// The normal turned clockwise: a disk that turns counter-clockwise moves this way at the contact.
     pub tangent: [f64; 2],
 }
 
-impl Frame {
+impl SupportFrame {
     /// Contact whose normal is turned counter-clockwise from the vertical by `angle` \[rad\].
     ///
     /// The left contact has `angle = -alpha_1`, the right one `alpha_2` (P 4.1).
@@ -67,7 +67,7 @@ fn arc_over_slope(slope: f64) -> f64 {
 /// that of the frame's tangent. Source: P 4.5, 4.7 with ERRATA's signs.
 #[inline(always)]
 pub fn kinematics(
-    frame: &Frame,
+    frame: &SupportFrame,
     curvature: f64,
     radius: f64,
     place: [f64; 3],
@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn agrees_with_distances_and_angles_as_printed() {
         let (radius, angle) = (0.7, 0.4_f64);
-        let frame = Frame::new(angle);
+        let frame = SupportFrame::new(angle);
         let support = SupportMotion {
             place: [0.02, -0.03, 0.3],
             ..SupportMotion::REST
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn rates_are_derivatives() {
-        let frame = Frame::new(-0.3);
+        let frame = SupportFrame::new(-0.3);
         for curvature in [0.0, 0.5] {
             let at = |time: f64| {
                 let support = SupportMotion {

@@ -3,7 +3,7 @@
 use crate::drive::excitation::Piece;
 
 use super::contact::{Bounds, Contact, after, margins};
-use super::dynamics::{Observables, PhaseFactors, Setup, observe, rates_of};
+use super::dynamics::{PhaseFactors, TwoSupportsObservables, TwoSupportsSetup, observe, rates_of};
 use super::runge_kutta::{Vector, advance};
 use super::state::Node;
 
@@ -21,7 +21,7 @@ pub struct StepEvents {
 
 /// Why the engine cannot go on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Stop {
+pub enum TwoSupportsStop {
     /// Events follow each other without end.
     NoProgress {
         /// When \[s\].
@@ -38,7 +38,7 @@ pub enum Stop {
 
 /// One time step: what is constant, what drives, when it starts.
 pub struct TimeStep<'engine, P> {
-    pub setup: &'engine Setup,
+    pub setup: &'engine TwoSupportsSetup,
     pub piece: P,
     /// Start \[s\].
     pub start: f64,
@@ -63,7 +63,7 @@ impl<P: Piece> TimeStep<'_, P> {
 
     /// Forces and accelerations at `offset` \[s\] from the start.
     #[inline(never)]
-    pub fn observe(&self, offset: f64, disk: &Vector, contacts: &[Contact; 2]) -> Observables {
+    pub fn observe(&self, offset: f64, disk: &Vector, contacts: &[Contact; 2]) -> TwoSupportsObservables {
         observe(self.setup, &self.piece, offset, disk, &self.factors(contacts))
     }
 
@@ -91,9 +91,9 @@ impl<P: Piece> TimeStep<'_, P> {
         node
     }
 
-    fn margins(&self, contacts: &[Contact; 2], seen: &Observables) -> Margins {
+    fn margins(&self, contacts: &[Contact; 2], observed: &TwoSupportsObservables) -> Margins {
         let bounds = self.bounds();
-        let [left, right] = [0, 1].map(|index| margins(&contacts[index], &seen.contacts[index], &bounds));
+        let [left, right] = [0, 1].map(|index| margins(&contacts[index], &observed.contacts[index], &bounds));
         [left[0], left[1], right[0], right[1]]
     }
 
@@ -102,11 +102,11 @@ impl<P: Piece> TimeStep<'_, P> {
     }
 
     /// Every contact whose margin is negative goes to its next phase.
-    fn change(&self, node: &mut Node, seen: &Observables) {
+    fn change(&self, node: &mut Node, observed: &TwoSupportsObservables) {
         let bounds = self.bounds();
         let before = node.contacts;
         node.contacts = [0, 1].map(|index| {
-            let (contact, force) = (&before[index], &seen.contacts[index]);
+            let (contact, force) = (&before[index], &observed.contacts[index]);
             let margins = margins(contact, force, &bounds);
             match margins.iter().position(|margin| *margin < 0.0) {
                 Some(which) => after(contact, force, which, &bounds),
@@ -120,7 +120,7 @@ impl<P: Piece> TimeStep<'_, P> {
     ///
     /// # Errors
     /// More events than can be progress.
-    pub fn run(&self, from: &Node, duration: f64, step: &mut StepEvents) -> Result<Node, Stop> {
+    pub fn run(&self, from: &Node, duration: f64, step: &mut StepEvents) -> Result<Node, TwoSupportsStop> {
         step.events.clear();
         step.end = None;
         let mut node = *from;
@@ -147,7 +147,7 @@ impl<P: Piece> TimeStep<'_, P> {
                 node = *event;
             }
             if step.events.len() >= MOST_EVENTS {
-                return Err(Stop::NoProgress {
+                return Err(TwoSupportsStop::NoProgress {
                     time: self.start + node.offset,
                 });
             }
@@ -158,10 +158,10 @@ impl<P: Piece> TimeStep<'_, P> {
     fn first_event(
         &self,
         from: &Node,
-        first: &Observables,
+        first: &TwoSupportsObservables,
         now: &Margins,
         end: &Node,
-        last: &Observables,
+        last: &TwoSupportsObservables,
     ) -> Option<Node> {
         let at_end = self.margins(&end.contacts, last);
         let middle = self.middle(from, first, end, last);
@@ -193,7 +193,7 @@ impl<P: Piece> TimeStep<'_, P> {
     }
 
     /// Halfway between two nodes of one smooth stretch, by the quintic through positions, velocities and accelerations.
-    fn middle(&self, from: &Node, first: &Observables, end: &Node, last: &Observables) -> Node {
+    fn middle(&self, from: &Node, first: &TwoSupportsObservables, end: &Node, last: &TwoSupportsObservables) -> Node {
         let h = end.offset - from.offset;
         let mut disk = from.disk;
         for row in 0..3 {

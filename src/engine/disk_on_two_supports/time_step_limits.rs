@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::Rig;
+use super::TwoSupportsRig;
 
 /// Time steps \[s\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ impl TimeStepLimits {
     /// The fastest mode of two stuck contacts has `omega^2 <= 2 (k_n + 3 k_t) / m`, the trace of the stiffness in x, y
     /// and R theta / sqrt 2 over the mass; slipping ones have at most `2 k_n (1 + 3 mu) / m`; damping adds rates of at most
     /// `2 gamma_n (1 + 3 mu) / m`.
-    pub fn of(rig: &Rig, period: Option<f64>) -> Self {
+    pub fn of(rig: &TwoSupportsRig, period: Option<f64>) -> Self {
         let (normal, tangential) = (rig.normal, rig.tangential);
         let dragged = 1.0 + 3.0 * tangential.friction;
         let stiffness = (normal.stiffness + 3.0 * tangential.stiffness).max(normal.stiffness * dragged);

@@ -31,7 +31,7 @@ pub use boundary::{Boundary, WallContact, WallHit};
 pub use observer::{Observer, Unobserved};
 pub use sawtooth::Sawtooth;
 pub use space::{Open, Periodic, PeriodicAcross, Region, Space};
-pub use state::{Counts, EventDrivenState, NoHeadway, Stop};
+pub use state::{Counts, EventDrivenState, EventDrivenStop, NoHeadway};
 pub use walls::{Moving, VibratingBase, Walls};
 
 use prediction::Candidate;
@@ -160,7 +160,7 @@ impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
     ///
     /// # Errors
     /// The run makes no progress, or there are more events than one call may handle; the state is then of no use.
-    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stop> {
+    pub fn advance_to(&mut self, end_time: f64) -> Result<(), EventDrivenStop> {
         self.advance_within(end_time, &mut Unobserved, &mut WorkBudget::default())
     }
 
@@ -174,7 +174,7 @@ impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
         end_time: f64,
         observer: &mut impl Observer,
         work: &mut WorkBudget,
-    ) -> Result<(), Stop> {
+    ) -> Result<(), EventDrivenStop> {
         loop {
             let end = end_time - self.state.epoch;
             let bodies = &self.state.bodies;
@@ -186,10 +186,10 @@ impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
             }
             if !work.spend(self.work_of_event) {
                 let (time, most) = (self.state.epoch + time, work.most() / self.work_of_event);
-                return Err(Stop::TooManyEvents { time, most });
+                return Err(EventDrivenStop::TooManyEvents { time, most });
             }
             self.calendar.pop();
-            self.resolve(disk, time, observer).map_err(Stop::NoHeadway)?;
+            self.resolve(disk, time, observer).map_err(EventDrivenStop::NoHeadway)?;
             if time > EPOCH {
                 self.begin_epoch();
                 observer.shift_origin(EPOCH);

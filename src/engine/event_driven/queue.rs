@@ -162,7 +162,7 @@ mod tests {
 
     /// Against a plain search for the smallest, with times near, far, equal and infinite, and widths good and bad.
     #[test]
-    fn gives_what_a_plain_search_gives() {
+    fn the_calendar_gives_the_event_that_a_plain_search_gives() {
         let mut random = Pcg64::seed_from_u64(11);
         for mean_delay in [1e-6, 0.02, 1.0, 1e3] {
             let disks = 100_usize;

@@ -13,7 +13,7 @@ const FARTHEST: f64 = 1e12;
 
 /// What stopped a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Stop {
+pub enum EventDrivenStop {
     /// Events follow each other so fast that time stands still.
     NoHeadway(NoHeadway),
     /// One call had more events to handle than it may.

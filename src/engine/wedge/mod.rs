@@ -48,7 +48,7 @@ pub struct Start {
 
 /// What stopped a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Stop {
+pub enum WedgeStop {
     /// The disk no longer gets off the walls.
     Stuck(Stuck),
     /// One call had more impacts to do than it may.
@@ -101,7 +101,7 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
             side,
             position: height * bisector,
             velocity: sideways.abs() * clockwise(&bisector),
-            rim_velocity: 0.0,
+            surface_velocity: 0.0,
             arc_length: 0.0,
             next_side: side,
             delay: f64::INFINITY,
@@ -125,7 +125,7 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
     /// # Errors
     /// The disk is stuck, or there are more impacts than one call may do; the state is then that of the last impact and
     /// of no use.
-    pub fn advance_to(&mut self, end_time: f64) -> Result<(), Stop> {
+    pub fn advance_to(&mut self, end_time: f64) -> Result<(), WedgeStop> {
         self.advance_within(end_time, &mut WorkBudget::default())
     }
 
@@ -133,13 +133,13 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
     ///
     /// # Errors
     /// As [`Self::advance_to`].
-    pub fn advance_within(&mut self, end_time: f64, work: &mut WorkBudget) -> Result<(), Stop> {
+    pub fn advance_within(&mut self, end_time: f64, work: &mut WorkBudget) -> Result<(), WedgeStop> {
         while self.state.time + self.state.delay <= end_time {
             if !work.spend(self.work_of_impact) {
                 let (time, most) = (self.state.time, work.most() / self.work_of_impact);
-                return Err(Stop::TooManyImpacts { time, most });
+                return Err(WedgeStop::TooManyImpacts { time, most });
             }
-            self.next_impact().map_err(Stop::Stuck)?;
+            self.next_impact().map_err(WedgeStop::Stuck)?;
         }
         Ok(())
     }
@@ -155,7 +155,7 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
         (state.position, state.velocity) = motion_after(&self.setup, state, state.delay, base);
         state.time += state.delay;
         state.base = base;
-        state.arc_length += state.rim_velocity * state.delay;
+        state.arc_length += state.surface_velocity * state.delay;
         if state.next_side != state.side {
             state.position = self.setup.frame.reflected(state.position);
             state.velocity = self.setup.frame.reflected(state.velocity);
@@ -175,7 +175,7 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
         let delay = time - state.time;
         let base = state.walls.motion(time);
         (state.position, state.velocity) = motion_after(&self.setup, state, delay, base);
-        state.arc_length += state.rim_velocity * delay;
+        state.arc_length += state.surface_velocity * delay;
         state.time = time;
         change(&mut state.walls);
         state.base = state.walls.motion(time);
@@ -216,8 +216,8 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
         DiskMotion {
             position,
             velocity: frame.to_laboratory(state.side, velocity),
-            angle: (state.arc_length + state.rim_velocity * delay) / radius,
-            angular_velocity: state.rim_velocity / radius,
+            angle: (state.arc_length + state.surface_velocity * delay) / radius,
+            angular_velocity: state.surface_velocity / radius,
         }
     }
 
@@ -230,7 +230,7 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
             effective_mass: 1.0,
             tangential_mass: self.tangential_mass,
             normal_velocity: state.velocity.y - wall_velocity * up.y,
-            tangential_velocity: state.velocity.x - wall_velocity * up.x + sign * state.rim_velocity,
+            tangential_velocity: state.velocity.x - wall_velocity * up.x + sign * state.surface_velocity,
             time_since_last: f64::INFINITY,
         };
         let leaves =
@@ -245,7 +245,7 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
         let impulse = self.law.impulse(&before);
         let momentum = Vector2::new(impulse.tangential, impulse.normal);
         state.velocity += momentum;
-        state.rim_velocity += sign * 2.0 * impulse.tangential;
+        state.surface_velocity += sign * 2.0 * impulse.tangential;
         let upward = momentum.dot(&up);
         let normal = before.normal_velocity + 0.5 * impulse.normal;
         let tangential = before.tangential_velocity + 0.5 * impulse.tangential / self.tangential_mass;

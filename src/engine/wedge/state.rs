@@ -24,7 +24,7 @@ pub struct WedgeState<B> {
     /// Velocity of the centre relative to the laboratory at the start of the flight \[m/s\], in the frame of `side`.
     pub velocity: Vector2<f64>,
     /// Velocity of the rim by the disk's spin, `R omega`, counter-clockwise \[m/s\].
-    pub rim_velocity: f64,
+    pub surface_velocity: f64,
     /// Arc length that the rim has turned by up to the start of the flight \[m\]: R times the angle.
     pub arc_length: f64,
     /// Wall that the disk meets next.

@@ -1,7 +1,7 @@
 //! What the scene computes: calculated parameters and outputs, each with how it is read and what it depends on before the
 //! first step, when the disk is at rest on its supports, or lifted off them, and may spin.
 
-use crate::engine::disk_on_two_supports::{ENERGY_INPUT, ENERGY_LOST, Phase, Sense, SlidingPoint};
+use crate::engine::disk_on_two_supports::{ContactPhase, ENERGY_INPUT, ENERGY_LOST, Sense, SlidingPoint};
 use crate::scene::disks_on_base::names;
 use crate::scene::soft_disks::STEP_OF_ONE_DISK;
 use crate::scene::{Row, Unit};
@@ -361,12 +361,12 @@ impl<E: DiskOnTwoSupportsDrive> DiskOnTwoSupportsScene<E> {
 }
 
 /// Number of a contact's phase in the enumeration `contact_state`.
-fn contact_state(phase: Phase) -> i64 {
+fn contact_state(phase: ContactPhase) -> i64 {
     match phase {
-        Phase::Apart | Phase::Relaxing => 1,
-        Phase::Stick => 2,
-        Phase::Slip(Sense::CounterClockwise) => 3,
-        Phase::Slip(Sense::Clockwise) => 4,
+        ContactPhase::Apart | ContactPhase::Relaxing => 1,
+        ContactPhase::Stick => 2,
+        ContactPhase::Slip(Sense::CounterClockwise) => 3,
+        ContactPhase::Slip(Sense::Clockwise) => 4,
     }
 }
 

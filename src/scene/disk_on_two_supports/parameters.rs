@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
 use crate::contact::ContactLaws;
-use crate::engine::disk_on_two_supports::{Frame, Rig};
+use crate::engine::disk_on_two_supports::{SupportFrame, TwoSupportsRig};
 use crate::error::{Error, Result};
 use crate::scene::soft_disks::contact_laws;
 use crate::scene::{Row, Unit, Values};
@@ -124,7 +124,7 @@ fn run<M>() -> Vec<Row<M>> {
 ///
 /// # Errors
 /// Supports that do not confine the disk or overlap each other.
-pub fn rig(values: &Values) -> Result<Rig> {
+pub fn rig(values: &Values) -> Result<TwoSupportsRig> {
     let (opening, tilt, radius) = (
         values.real("support.angle"),
         values.real("tilt"),
@@ -148,13 +148,13 @@ pub fn rig(values: &Values) -> Result<Rig> {
         ));
     }
     let ContactLaws { normal, tangential } = contact_laws(values);
-    Ok(Rig {
+    Ok(TwoSupportsRig {
         radius,
         mass: values.real("disk.mass"),
         gravity: values.real("gravity"),
         normal,
         tangential,
-        frames: [Frame::new(tilt - opening), Frame::new(opening + tilt)],
+        frames: [SupportFrame::new(tilt - opening), SupportFrame::new(opening + tilt)],
         curvature: if disks { 0.5 / radius } else { 0.0 },
     })
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::drive::{AtRandomPhase, Motion, Sine};
-use crate::engine::event_driven::{Counts, EventDrivenState, Moving, Stop, Walls};
+use crate::engine::event_driven::{Counts, EventDrivenState, EventDrivenStop, Moving, Walls};
 use crate::engine::{DiskMotion, WorkBudget};
 use crate::geometry::Disk;
 use crate::scene::{Result, Row, Values};
@@ -77,7 +77,7 @@ impl HardEngine for EitherBase {
 
     fn set_target(&mut self, _time: f64, _duration: f64, _values: &Values) {}
 
-    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> std::result::Result<(), Stop> {
+    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> std::result::Result<(), EventDrivenStop> {
         either!(self, run => HardEngine::advance_to(&mut **run, end_time, budget))
     }
 

@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::drive::{FollowsInput, Motion};
-use crate::engine::event_driven::{Counts, Moving, Partner, Stop};
+use crate::engine::event_driven::{Counts, EventDrivenStop, Moving, Partner};
 use crate::engine::{DiskMotion, MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::are_sane;
 use crate::scene::base_drive::BaseDrive;
@@ -101,10 +101,10 @@ impl<E: HardEngine> HardDisksOnBase for HardPacking<E> {
     }
 }
 
-fn refused_step(stop: Stop) -> Error {
+fn refused_step(stop: EventDrivenStop) -> Error {
     let stop = match stop {
-        Stop::NoHeadway(stop) => stop,
-        Stop::TooManyEvents { time, most } => {
+        EventDrivenStop::NoHeadway(stop) => stop,
+        EventDrivenStop::TooManyEvents { time, most } => {
             return Error::too_much_work(NAME, time, format!("more than {most} events"));
         }
     };

@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 
 use crate::drive::{AtRandomPhase, Motion, RandomPhase, Sine};
 use crate::engine::event_driven::{
-    Counts, EventDriven, EventDrivenState, Model, Open, Region, Settings, Stop, Unobserved, Walls,
+    Counts, EventDriven, EventDrivenState, EventDrivenStop, Model, Open, Region, Settings, Unobserved, Walls,
 };
 use crate::engine::{DiskMotion, WorkBudget};
 use crate::geometry::{Disk, Vector2};
@@ -47,7 +47,7 @@ pub trait HardEngine: Sized + Send + 'static {
     ///
     /// # Errors
     /// No headway, or too many events.
-    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> std::result::Result<(), Stop>;
+    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> std::result::Result<(), EventDrivenStop>;
     /// Motion of a disk at `time` \[s\].
     fn disk_at(&self, time: f64, disk: usize) -> DiskMotion;
     /// Sums since the start.
@@ -130,7 +130,7 @@ impl<W: HardBase> HardEngine for HardDisks<W> {
         }
     }
 
-    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> std::result::Result<(), Stop> {
+    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> std::result::Result<(), EventDrivenStop> {
         self.advance_within(end_time, &mut Unobserved, budget)
     }
 

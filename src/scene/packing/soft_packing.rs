@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::drive::Motion;
-use crate::engine::dem::{FixedGrid, Setup, State, TimeStepLimits};
+use crate::engine::dem::{FixedGrid, GridState, SoftDiskSetup, TimeStepLimits};
 use crate::engine::{DiskMotion, Engine, MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::are_sane;
 use crate::geometry::{Disk, Vector2};
@@ -64,7 +64,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         // The packing starts on the floor, wherever the drive has it.
         let lift = drive.motion(start_time).displacement;
         let disks: Vec<Disk> = disks.iter().map(|disk| disk.raised(lift)).collect();
-        let setup = Setup {
+        let setup = SoftDiskSetup {
             laws,
             walls: initial_packing::walls(values),
             masses,
@@ -191,7 +191,7 @@ impl<S: SoftMethod, D: BaseDrive> DisksOnBase for SoftPacking<S, D> {
 }
 
 impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
-    type State = PackingState<State<D, S::Disks>>;
+    type State = PackingState<GridState<D, S::Disks>>;
 
     fn info() -> ModelInfo {
         SceneInfo {

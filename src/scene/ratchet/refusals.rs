@@ -1,6 +1,6 @@
 //! Why a step of the ratchet is refused: what stopped the engine or is wrong with the inputs, and what to do about it.
 
-use crate::engine::event_driven::{Partner, Stop};
+use crate::engine::event_driven::{EventDrivenStop, Partner};
 use crate::scene::Error;
 
 use super::NAME;
@@ -10,10 +10,10 @@ use super::NAME;
 pub const MOST_ACCELERATION: f64 = 1e14;
 
 /// What stopped the engine, as the error of a step.
-pub fn refusal(stop: Stop) -> Error {
+pub fn refusal(stop: EventDrivenStop) -> Error {
     let stop = match stop {
-        Stop::NoHeadway(stop) => stop,
-        Stop::TooManyEvents { time, most } => {
+        EventDrivenStop::NoHeadway(stop) => stop,
+        EventDrivenStop::TooManyEvents { time, most } => {
             return Error::too_much_work(NAME, time, format!("more than {most} events"));
         }
     };

@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 use crate::collision::{CollisionLaw, Dashpot, TabulatedDashpot, VelocityFloor};
 use crate::contact::LinearDashpot;
 use crate::drive::{AtRandomPhase, BaseMotion, FirstHit, Motion, RandomPhase, Sine};
-use crate::engine::wedge::{DiskInWedge, NO_PROGRESS, Side, Start, Stop, Stuck, WedgeSetup, WedgeState};
+use crate::engine::wedge::{DiskInWedge, NO_PROGRESS, Side, Start, Stuck, WedgeSetup, WedgeState, WedgeStop};
 use crate::engine::{DiskMotion, WorkBudget};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::{Error, Kind, Result, Row, Unit, Values};
@@ -67,15 +67,15 @@ fn counted(count: u64) -> i64 {
     count.min(i32::MAX as u64) as i64
 }
 
-fn refused_step(stop: Stop, remedy: &str) -> Error {
+fn refused_step(stop: WedgeStop, remedy: &str) -> Error {
     let Stuck {
         time,
         side,
         along,
         collisions,
     } = match stop {
-        Stop::Stuck(stuck) => stuck,
-        Stop::TooManyImpacts { time, most } => {
+        WedgeStop::Stuck(stuck) => stuck,
+        WedgeStop::TooManyImpacts { time, most } => {
             return Error::too_much_work(NAME, time, format!("more than {most} collisions"));
         }
     };
@@ -101,9 +101,9 @@ fn refused_step(stop: Stop, remedy: &str) -> Error {
 
 fn energies_at<L: CollisionLaw, B: BaseMotion>(disk: &DiskInWedge<L, B>, time: f64) -> SpecificEnergies {
     let (motion, sums, setup) = (disk.sample_at(time), disk.state().sums, disk.setup());
-    let rim = setup.radius * motion.angular_velocity;
+    let surface_velocity = setup.radius * motion.angular_velocity;
     SpecificEnergies {
-        kinetic: 0.5 * (motion.velocity.norm_squared() + 0.5 * rim * rim),
+        kinetic: 0.5 * (motion.velocity.norm_squared() + 0.5 * surface_velocity * surface_velocity),
         potential: setup.gravity * motion.position.y,
         input: sums.input,
         lost: sums.lost,
@@ -151,7 +151,7 @@ fn restore<L: CollisionLaw, B: BaseMotion>(
         state.position.y,
         state.velocity.x,
         state.velocity.y,
-        state.rim_velocity,
+        state.surface_velocity,
         state.arc_length,
         state.base.displacement,
         state.base.velocity,

@@ -4,7 +4,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use crate::drive::Motion;
-use crate::engine::dem::{Setup, State, TimeStepLimits, Verlet, verlet};
+use crate::engine::dem::{GridState, SoftDiskSetup, TimeStepLimits, Verlet, verlet};
 use crate::engine::wedge::{Side, WedgeFrame};
 use crate::engine::{DiskMotion, Engine, WorkBudget};
 use crate::geometry::{Disk, Vector2, Wall, clockwise};
@@ -24,7 +24,7 @@ pub struct Soft<D> {
 }
 
 impl<D: BaseDrive> WedgeEngine for Soft<D> {
-    type State = State<D, verlet::Disks>;
+    type State = GridState<D, verlet::Disks>;
     const NAME: &'static str = "molecular-dynamics";
     const DRIVE: &'static str = D::NAME;
     const IDENTIFIER: &'static str = "jostle_wedge_molecular_dynamics";
@@ -96,7 +96,7 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
         let drive = D::new(start_time, values)?;
         let limits = TimeStepLimits::verlet(&laws, &[mass], drive.frequency());
         let slopes = rows::slopes(values);
-        let setup = Setup {
+        let setup = SoftDiskSetup {
             laws,
             walls: vec![Wall::vibrating_slope(-slopes[0]), Wall::vibrating_slope(slopes[1])],
             masses: vec![mass],

@@ -27,7 +27,7 @@ type Lists = BTreeMap<String, BTreeSet<String>>;
 
 /// Where what a model description says and what the model does differ.
 pub fn differences(component: &Component, trials: &Trials) -> Vec<String> {
-    let seen = observed(component, trials);
+    let observed = observed(component, trials);
     let variables = component.table().variables();
     // A whole number changes where a threshold is crossed, which few of the variations do. Its list has to hold what they
     // found, and nothing that changes no real output.
@@ -35,15 +35,15 @@ pub fn differences(component: &Component, trials: &Trials) -> Vec<String> {
         let mut of_name = variables.iter().filter(|variable| stem(&variable.name) == name);
         of_name.any(|variable| !matches!(variable.kind, Kind::Real(_)))
     };
-    let reals = seen.iter().filter(|(name, _)| !whole(name));
+    let reals = observed.iter().filter(|(name, _)| !whole(name));
     let of_reals: BTreeSet<String> = reals.flat_map(|(_, list)| list.clone()).collect();
     let mut wrong = Vec::new();
     for version in [Version::Two, Version::Three] {
         let said = declared(component, version);
-        assert_eq!(said.keys().collect::<Vec<_>>(), seen.keys().collect::<Vec<_>>());
-        for (name, seen) in &seen {
-            let missing = seen - &said[name];
-            let idle = &said[name] - if whole(name) { &of_reals } else { seen };
+        assert_eq!(said.keys().collect::<Vec<_>>(), observed.keys().collect::<Vec<_>>());
+        for (name, observed) in &observed {
+            let missing = observed - &said[name];
+            let idle = &said[name] - if whole(name) { &of_reals } else { observed };
             if !(missing.is_empty() && idle.is_empty()) {
                 let identifier = &component.info().identifier;
                 wrong.push(format!(

@@ -152,7 +152,7 @@ fn a_panic_stays_in_its_instance() {
         let before = client.run((0, 4), 0.01);
         assert_eq!(client.step(0.04, 0.02), Error);
         assert!(
-            client.last_message().contains("told to panic"),
+            client.last_message().contains("set to panic"),
             "{}",
             client.last_message()
         );

@@ -73,21 +73,26 @@ fn steps_end_at_events_and_give_the_bits_of_a_run_without() {
         })
         .collect();
     let mut before = false;
-    let mut seen = Vec::new();
+    let mut observed = Vec::new();
     for (index, height) in heights.into_iter().enumerate() {
         if (height < 0.0) != before {
-            seen.push((index + 1) as f64 * 1e-3);
+            observed.push((index + 1) as f64 * 1e-3);
         }
         before = height < 0.0;
     }
-    assert!(seen.len() > 2, "{seen:?}");
-    assert_eq!(times.len(), seen.len(), "{times:?} {seen:?}");
-    assert!(times.iter().zip(&seen).all(|(one, other)| (one - other).abs() < 1e-9));
+    assert!(observed.len() > 2, "{observed:?}");
+    assert_eq!(times.len(), observed.len(), "{times:?} {observed:?}");
+    assert!(
+        times
+            .iter()
+            .zip(&observed)
+            .all(|(one, other)| (one - other).abs() < 1e-9)
+    );
     let fine_times = run(&fine, 1.0, 0.0037);
     assert!(
         fine_times
             .iter()
-            .zip(&seen)
+            .zip(&observed)
             .all(|(one, other)| (one - other).abs() < 1e-9)
     );
     assert_eq!(fine.outputs(), plain.outputs());
@@ -115,7 +120,7 @@ fn without_early_return_or_event_mode_steps_reach_their_end() {
 }
 
 #[test]
-fn inputs_may_be_set_in_event_mode_and_states_come_back_there() {
+fn inputs_can_be_set_and_states_restored_in_event_mode() {
     let client = events();
     let (_, _, time) = client.step_to_event(0.0, 1.0);
     assert_eq!(unsafe { fmi3EnterEventMode(client.pointer) }, Ok);
@@ -154,8 +159,8 @@ fn reset_keeps_what_the_importer_can_do() {
 #[test]
 fn models_without_events_refuse_event_mode_as_their_flags_say() {
     let token = token_of(&DECAY, false);
-    let told = Instance::new(&DECAY, token.to_str().unwrap(), EVENTS)
+    let message = Instance::new(&DECAY, token.to_str().unwrap(), EVENTS)
         .unwrap_err()
         .to_string();
-    assert!(told.contains("hasEventMode"), "{told}");
+    assert!(message.contains("hasEventMode"), "{message}");
 }

@@ -12,18 +12,18 @@ use oscillators::fmi3::*;
 
 use crate::client::{Client, MODEL, reference, token, token_of};
 use crate::decay::DECAY;
-use crate::listener::{EARLY, Listener, RAISED, Told, events, instantiate, keep, update};
+use crate::listener::{EARLY, Listener, ListeningClient, RAISED, events, instantiate, keep, update};
 
 #[test]
-fn every_event_of_a_step_is_told_and_changes_nothing() {
+fn every_event_of_a_step_is_reported_and_changes_nothing() {
     let plain = Client::three().ready(RAISED);
     assert_eq!(plain.step(0.0, 100.0), Ok);
-    let told = Told::new(Importer::default(), &[], None);
-    assert_eq!(told.client.step_to_event(0.0, 100.0), (false, false, 100.0));
-    assert_eq!(told.client.outputs(), plain.outputs());
-    assert!(told.listener.told.borrow().len() > 900);
-    assert_eq!(told.listener.times(), events(100.0));
-    let fine = Told::new(Importer::default(), &[], None);
+    let listening = ListeningClient::new(Importer::default(), &[], None);
+    assert_eq!(listening.client.step_to_event(0.0, 100.0), (false, false, 100.0));
+    assert_eq!(listening.client.outputs(), plain.outputs());
+    assert!(listening.listener.reported.borrow().len() > 900);
+    assert_eq!(listening.listener.times(), events(100.0));
+    let fine = ListeningClient::new(Importer::default(), &[], None);
     let mut ends = 0.0;
     while ends < 1.0 {
         assert_eq!(fine.client.step(ends, 1.0 / 64.0), Ok);
@@ -38,14 +38,17 @@ fn every_event_of_a_step_is_told_and_changes_nothing() {
 }
 
 #[test]
-fn an_event_at_the_end_of_a_step_is_not_told() {
+fn an_event_at_the_end_of_a_step_is_not_reported() {
     let first = events(1.0)[0];
-    let told = Told::new(EARLY, &[], None);
-    assert_eq!(told.client.step_to_event(0.0, first), (false, false, first));
-    assert_eq!(told.listener.times(), []);
+    let listening = ListeningClient::new(EARLY, &[], None);
+    assert_eq!(listening.client.step_to_event(0.0, first), (false, false, first));
+    assert_eq!(listening.listener.times(), []);
     let (step, second) = (1.0 - first, events(1.0)[1]);
-    assert_eq!(told.client.step_to_event(first, step), (false, false, first + step));
-    assert_eq!(told.listener.times()[0], second);
+    assert_eq!(
+        listening.client.step_to_event(first, step),
+        (false, false, first + step)
+    );
+    assert_eq!(listening.listener.times()[0], second);
 }
 
 #[test]
@@ -59,9 +62,9 @@ fn values_are_those_of_the_event() {
             client.get("body.position[1]")
         })
         .collect();
-    let told = Told::reacting(move |listener, time| {
+    let listening = ListeningClient::reacting(move |listener, time| {
         assert_eq!(listener.real(TIME_REFERENCE), (Ok, time));
-        assert_eq!(listener.real(height), plain[listener.told.borrow().len() - 1]);
+        assert_eq!(listener.real(height), plain[listener.reported.borrow().len() - 1]);
         let (pointer, mut whole, mut rate) = (listener.pointer.get(), 0_i32, f64::NAN);
         let steps = reference("steps");
         let status = unsafe { fmi3GetInt32(pointer, &steps, 1, &mut whole, 1) };
@@ -82,14 +85,14 @@ fn values_are_those_of_the_event() {
         assert_eq!(unsafe { CStr::from_ptr(fmi3GetVersion()) }, c"3.0");
         None
     });
-    assert_eq!(told.client.step(0.0, 1.0), Ok);
-    assert_eq!(told.listener.times(), times);
+    assert_eq!(listening.client.step(0.0, 1.0), Ok);
+    assert_eq!(listening.listener.times(), times);
 }
 
 #[test]
 fn all_but_reading_is_refused_and_freeing_ignored() {
     let base = reference("frame.position");
-    let told = Told::reacting(move |listener, time| {
+    let listening = ListeningClient::reacting(move |listener, time| {
         let (pointer, mut state, mut size) = (listener.pointer.get(), null_mut(), 0_usize);
         let (mut flags, mut reached) = ([0_u8; 5], 0.0);
         let [one, two, three, four, five] = &mut flags;
@@ -123,12 +126,12 @@ fn all_but_reading_is_refused_and_freeing_ignored() {
         None
     });
     let plain = Client::three().ready(RAISED);
-    for client in [&plain, &told.client] {
+    for client in [&plain, &listening.client] {
         assert_eq!(client.step(0.0, 1.0), Ok);
         assert_eq!(client.set("frame.position", 0.0), Ok);
         assert_eq!(client.step(1.0, 0.01), Ok);
     }
-    assert_eq!(told.client.outputs(), plain.outputs());
+    assert_eq!(listening.client.outputs(), plain.outputs());
 }
 
 #[test]
@@ -152,20 +155,24 @@ fn a_step_ends_early_when_that_is_asked_for() {
     ];
     for (one, two, end, count) in cases {
         let wishes = [one, two];
-        let told = Told::reacting(move |listener, _| {
-            let index = listener.told.borrow().len() - 1;
+        let listening = ListeningClient::reacting(move |listener, _| {
+            let index = listener.reported.borrow().len() - 1;
             wishes.get(index).copied().flatten()
         });
         let case = format!("{wishes:?}");
-        assert_eq!(told.client.step_to_event(0.0, 1.0), (false, end < 1.0, end), "{case}");
-        assert_eq!(told.listener.times(), times[..count], "{case}");
-        assert!(told.listener.told.borrow().iter().all(|(_, early)| *early));
+        assert_eq!(
+            listening.client.step_to_event(0.0, 1.0),
+            (false, end < 1.0, end),
+            "{case}"
+        );
+        assert_eq!(listening.listener.times(), times[..count], "{case}");
+        assert!(listening.listener.reported.borrow().iter().all(|(_, early)| *early));
         let plain = Client::three().ready(RAISED);
         assert_eq!(plain.step(0.0, end), Ok);
-        assert_eq!(told.client.outputs(), plain.outputs(), "{case}");
+        assert_eq!(listening.client.outputs(), plain.outputs(), "{case}");
         if end < 1.0 {
             assert_eq!(
-                told.client.step_to_event(end, 1e-4),
+                listening.client.step_to_event(end, 1e-4),
                 (false, false, end + 1e-4),
                 "{case}"
             );
@@ -180,27 +187,27 @@ fn a_step_goes_on_where_early_return_is_not_allowed() {
             event_mode,
             early_return: false,
         };
-        let told = Told::new(importer, &[], Some(Box::new(|_, time| Some(time))));
+        let listening = ListeningClient::new(importer, &[], Some(Box::new(|_, time| Some(time))));
         if event_mode {
-            assert_eq!(unsafe { fmi3EnterStepMode(told.client.pointer) }, Ok);
+            assert_eq!(unsafe { fmi3EnterStepMode(listening.client.pointer) }, Ok);
         }
-        assert_eq!(told.client.step_to_event(0.0, 1.0), (false, false, 1.0));
-        assert_eq!(told.listener.times(), events(1.0));
-        assert!(told.listener.told.borrow().iter().all(|(_, early)| !early));
+        assert_eq!(listening.client.step_to_event(0.0, 1.0), (false, false, 1.0));
+        assert_eq!(listening.listener.times(), events(1.0));
+        assert!(listening.listener.reported.borrow().iter().all(|(_, early)| !early));
     }
 }
 
 #[test]
-fn event_mode_is_told_nothing_besides() {
+fn in_event_mode_no_intermediate_update_is_reported() {
     let importer = Importer {
         event_mode: true,
         ..EARLY
     };
-    let told = Told::new(importer, &[], Some(Box::new(|_, time| Some(time))));
-    assert_eq!(unsafe { fmi3EnterStepMode(told.client.pointer) }, Ok);
+    let listening = ListeningClient::new(importer, &[], Some(Box::new(|_, time| Some(time))));
+    assert_eq!(unsafe { fmi3EnterStepMode(listening.client.pointer) }, Ok);
     let first = events(1.0)[0];
-    assert_eq!(told.client.step_to_event(0.0, 1.0), (true, true, first));
-    assert_eq!(told.listener.times(), []);
+    assert_eq!(listening.client.step_to_event(0.0, 1.0), (true, true, first));
+    assert_eq!(listening.listener.times(), []);
 }
 
 /// Bits of the outputs and of the saved state, which holds time, values and phase.
@@ -209,31 +216,36 @@ fn all(client: &Client) -> (Vec<u64>, Vec<u8>) {
 }
 
 #[test]
-fn a_refused_step_leaves_all_as_before_events_that_were_told() {
-    let told = Told::new(EARLY, &[("fault.refuse_time", 0.7)], None);
-    assert_eq!(told.client.step(0.0, 0.1), Ok);
-    let before = all(&told.client);
-    let count = told.listener.told.borrow().len();
-    assert_eq!(told.client.step(0.1, 0.9), Discard);
-    assert!(told.listener.told.borrow().len() > count + 2);
-    assert_eq!(all(&told.client), before);
-    assert_eq!(told.client.step(0.1, 0.9), Error, "the same step again");
-    assert_eq!(all(&told.client), before);
+fn a_refused_step_undoes_the_events_that_were_reported() {
+    let listening = ListeningClient::new(EARLY, &[("fault.refuse_time", 0.7)], None);
+    assert_eq!(listening.client.step(0.0, 0.1), Ok);
+    let before = all(&listening.client);
+    let count = listening.listener.reported.borrow().len();
+    assert_eq!(listening.client.step(0.1, 0.9), Discard);
+    assert!(listening.listener.reported.borrow().len() > count + 2);
+    assert_eq!(all(&listening.client), before);
+    assert_eq!(listening.client.step(0.1, 0.9), Error, "the same step again");
+    assert_eq!(all(&listening.client), before);
     let plain = Client::three().ready(&[RAISED, &[("fault.refuse_time", 0.7)]].concat());
     assert_eq!(plain.step(0.0, 0.6), Ok);
-    assert_eq!(told.client.step(0.1, 0.5), Ok, "{}", told.listener.last_message());
-    assert_eq!(told.client.outputs(), plain.outputs());
+    assert_eq!(
+        listening.client.step(0.1, 0.5),
+        Ok,
+        "{}",
+        listening.listener.last_message()
+    );
+    assert_eq!(listening.client.outputs(), plain.outputs());
 }
 
 #[test]
 fn a_panic_after_an_event_fails_this_instance_alone() {
-    let told = Told::new(EARLY, &[("fault.panic_time", 0.7)], None);
-    assert_eq!(told.client.step(0.0, 1.0), Error);
-    assert!(told.listener.told.borrow().len() > 2);
-    assert!(told.listener.last_message().contains("has failed"));
-    assert_eq!(told.client.step(0.0, 0.1), Error);
-    assert_eq!(told.client.reset(), Ok);
-    assert_eq!(told.client.enter(), Ok, "as new");
+    let listening = ListeningClient::new(EARLY, &[("fault.panic_time", 0.7)], None);
+    assert_eq!(listening.client.step(0.0, 1.0), Error);
+    assert!(listening.listener.reported.borrow().len() > 2);
+    assert!(listening.listener.last_message().contains("has failed"));
+    assert_eq!(listening.client.step(0.0, 0.1), Error);
+    assert_eq!(listening.client.reset(), Ok);
+    assert_eq!(listening.client.enter(), Ok, "as new");
 }
 
 #[test]

@@ -147,7 +147,7 @@ fn reset_equals_a_new_instance() {
 }
 
 #[test]
-fn parameters_refused_at_initialisation_may_be_mended() {
+fn parameters_refused_at_initialisation_may_be_corrected() {
     let client = Client::three();
     assert_eq!(client.set("damper.damping", 99.0), Ok);
     assert_eq!(client.set("body.mass", 1e-3), Ok);
@@ -165,7 +165,7 @@ fn parameters_refused_at_initialisation_may_be_mended() {
 }
 
 #[test]
-fn a_foreign_token_is_told() {
+fn a_foreign_token_is_refused_with_a_message() {
     for token in [
         "",
         "nonsense",
@@ -200,8 +200,8 @@ fn log_categories_are_respected() {
     let name = c"logEvents".as_ptr();
     assert_eq!(unsafe { fmi3SetDebugLogging(client.pointer, 1, 1, &name) }, Ok);
     assert_eq!(client.enter(), Ok);
-    let told: (i32, String, String) = client.log.borrow_mut().pop().unwrap();
-    assert_eq!((told.0, told.1.as_str()), (Ok as i32, "logEvents"));
+    let logged: (i32, String, String) = client.log.borrow_mut().pop().unwrap();
+    assert_eq!((logged.0, logged.1.as_str()), (Ok as i32, "logEvents"));
     let unknown = c"logEverything".as_ptr();
     assert_eq!(unsafe { fmi3SetDebugLogging(client.pointer, 1, 1, &unknown) }, Error);
     assert_eq!(client.log.borrow().len(), 1, "errors are off now");
@@ -282,10 +282,10 @@ fn the_importers_tolerance_chooses_the_time_step() {
             let references = [reference("tolerance")];
             instance.set(&references, Access::Real, |_| Value::Real(own)).unwrap();
         }
-        let told = |error: fmi_component::Error| error.to_string();
-        instance.set_up_within(importers, 0.0, None).map_err(told)?;
-        instance.enter_initialization().map_err(told)?;
-        instance.get(reference(read), Access::Real).map_err(told)
+        let message_of = |error: fmi_component::Error| error.to_string();
+        instance.set_up_within(importers, 0.0, None).map_err(message_of)?;
+        instance.enter_initialization().map_err(message_of)?;
+        instance.get(reference(read), Access::Real).map_err(message_of)
     }
     let chosen = |own, importers| initialized(&DECAY, "chosen_time_step", own, importers);
     assert_eq!(chosen(None, Some(1e-8)), chosen(Some(1e-8), None));

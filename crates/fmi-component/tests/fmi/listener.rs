@@ -27,12 +27,12 @@ pub type React = Box<dyn Fn(&Listener, f64) -> Option<f64>>;
 pub struct Listener {
     pub pointer: Cell<Opaque>,
     react: Option<React>,
-    pub told: RefCell<Vec<(f64, bool)>>,
+    pub reported: RefCell<Vec<(f64, bool)>>,
     pub log: Log,
 }
 
 /// An instance that tells, in step mode unless it uses event mode.
-pub struct Told {
+pub struct ListeningClient {
     pub client: Client,
     pub listener: Box<Listener>,
 }
@@ -50,7 +50,7 @@ pub unsafe extern "C" fn update(
     let listener = unsafe { &*environment.cast::<Listener>() };
     assert_eq!((set, get, finished), (0, 1, 1));
     unsafe { assert_eq!((*early_return, *until), (0, time)) };
-    listener.told.borrow_mut().push((time, can_return_early == 1));
+    listener.reported.borrow_mut().push((time, can_return_early == 1));
     if let Some(wanted) = listener.react.as_ref().and_then(|react| react(listener, time)) {
         unsafe { (*early_return, *until) = (1, wanted) };
     }
@@ -99,7 +99,7 @@ impl Listener {
     }
 
     pub fn times(&self) -> Vec<f64> {
-        self.told.borrow().iter().map(|(time, _)| *time).collect()
+        self.reported.borrow().iter().map(|(time, _)| *time).collect()
     }
 
     pub fn real(&self, reference: u32) -> (Status, f64) {
@@ -111,7 +111,7 @@ impl Listener {
     }
 }
 
-impl Told {
+impl ListeningClient {
     pub fn new(importer: Importer, parameters: &[(&str, f64)], react: Option<React>) -> Self {
         let listener = Box::new(Listener {
             react,

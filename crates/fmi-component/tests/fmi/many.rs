@@ -9,7 +9,7 @@ use fmi_component::c_api::Status::{Error, Ok};
 use oscillators::fmi3::*;
 
 use crate::client::{Client, reference};
-use crate::listener::{RAISED, Told};
+use crate::listener::{ListeningClient, RAISED};
 
 #[test]
 fn a_thousand_instances_live_side_by_side() {
@@ -58,10 +58,10 @@ impl Shared {
 
 /// Whoever reads is in the way of a step that comes back from an intermediate update, which waits.
 #[test]
-fn other_threads_may_read_while_a_step_tells_and_no_more() {
+fn other_threads_may_only_read_during_an_intermediate_update() {
     let (inside, height) = (Arc::new(AtomicBool::new(false)), reference("body.position[1]"));
     let begun = Arc::clone(&inside);
-    let told = Told::reacting(move |listener, _| {
+    let listening = ListeningClient::reacting(move |listener, _| {
         begun.store(true, Ordering::Release);
         let shared = Shared(listener.pointer.get());
         let other = std::thread::spawn(move || unsafe {
@@ -72,11 +72,11 @@ fn other_threads_may_read_while_a_step_tells_and_no_more() {
         None
     });
     assert_eq!(
-        unsafe { fmi3SetDebugLogging(told.client.pointer, 0, 0, null()) },
+        unsafe { fmi3SetDebugLogging(listening.client.pointer, 0, 0, null()) },
         Ok,
         "the log is no thread's but ours"
     );
-    let (shared, done) = (Shared(told.client.pointer), AtomicBool::new(false));
+    let (shared, done) = (Shared(listening.client.pointer), AtomicBool::new(false));
     let reads = std::thread::scope(|scope| {
         let (inside, done) = (&inside, &done);
         let reader = scope.spawn(move || {
@@ -88,13 +88,13 @@ fn other_threads_may_read_while_a_step_tells_and_no_more() {
             }
             reads
         });
-        let status = told.client.step(0.0, 20.0);
+        let status = listening.client.step(0.0, 20.0);
         done.store(true, Ordering::Release);
         assert_eq!(status, Ok);
         reader.join().unwrap()
     });
-    assert!(reads > 0 && told.listener.times().len() > 100);
+    assert!(reads > 0 && listening.listener.times().len() > 100);
     let plain = Client::three().ready(RAISED);
     assert_eq!(plain.step(0.0, 20.0), Ok);
-    assert_eq!(told.client.outputs(), plain.outputs());
+    assert_eq!(listening.client.outputs(), plain.outputs());
 }

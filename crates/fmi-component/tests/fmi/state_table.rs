@@ -121,12 +121,12 @@ fn check((name, call, legal): (&str, Call, &str), three: bool) {
         assert_eq!(status, expected, "{name}, {phase}: {}", client.last_message());
         if status == Error {
             let message = client.last_message();
-            let told = ["phase", "not computed yet", "was not asked for"]
+            let explained = ["phase", "not computed yet", "was not asked for"]
                 .iter()
                 .any(|word| message.contains(word));
             let expected = ["legal in: ", "first", "reset", "Inputs may", "Instantiate with"];
             assert!(
-                told && expected.iter().any(|word| message.contains(word)),
+                explained && expected.iter().any(|word| message.contains(word)),
                 "{name}, {phase}: {message}"
             );
             assert_eq!(client.reset(), Ok, "it lives on");

@@ -33,7 +33,7 @@ fn bytes_carry_a_run_to_another_instance() {
 }
 
 #[test]
-fn states_of_every_phase_come_back() {
+fn states_of_every_phase_are_restored() {
     let client = Client::three();
     assert_eq!(client.set("body.mass", 0.3), Ok);
     let instantiated = client.save();
@@ -86,7 +86,7 @@ fn altered_bytes_are_refused() {
 }
 
 #[test]
-fn stale_and_foreign_states_are_told() {
+fn stale_and_foreign_states_are_refused_with_a_message() {
     let (client, other) = (Client::three().ready(&[]), Client::three().ready(&[]));
     let mut state = client.save();
     let stale = state;
@@ -155,10 +155,10 @@ fn impossible_phases_and_times_are_refused() {
     for now in [0.0, 0.4, 0.6] {
         let mut moved = good.clone();
         moved[8..16].copy_from_slice(&f64::to_le_bytes(now));
-        let told = instance
+        let message = instance
             .snapshot_from_bytes(&bytes(Phase::Step, None, &moved))
             .unwrap_err();
-        assert!(told.to_string().contains("its model's 0.5 s"), "{told}");
+        assert!(message.to_string().contains("its model's 0.5 s"), "{message}");
     }
     for (phase, stop, payload) in [
         (Phase::IntermediateUpdate, None, &good),
@@ -168,8 +168,11 @@ fn impossible_phases_and_times_are_refused() {
         (Phase::Step, Some(f64::NAN), &good),
         (Phase::Step, None, &fresh),
     ] {
-        let told = instance.snapshot_from_bytes(&bytes(phase, stop, payload)).unwrap_err();
-        assert!(told.to_string().contains("times are impossible"), "{phase:?}: {told}");
+        let message = instance.snapshot_from_bytes(&bytes(phase, stop, payload)).unwrap_err();
+        assert!(
+            message.to_string().contains("times are impossible"),
+            "{phase:?}: {message}"
+        );
     }
     assert_eq!(instance.snapshot_to_bytes(&instance.save().unwrap()).unwrap(), saved);
 }

@@ -5,7 +5,7 @@
 use jostle::drive::Sine;
 use jostle::engine::Engine;
 use jostle::engine::dem::verlet::{Integrator, PredictorCorrector};
-use jostle::engine::dem::{self, Breakdown, EventLocated, FixedGrid, Setup};
+use jostle::engine::dem::{self, Breakdown, EventLocated, FixedGrid, SoftDiskSetup};
 use jostle::geometry::Disk;
 
 /// An engine that advances soft disks over a sine base.
@@ -16,7 +16,7 @@ pub trait SoftEngine: Clone + 'static {
     const PASSES: f64;
 
     /// Disks at `rates` (x, y, spin), whose contacts hold nothing yet.
-    fn start(setup: Setup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self;
+    fn start(setup: SoftDiskSetup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self;
 
     /// Advances to `end_time` \[s\].
     fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown>;
@@ -35,7 +35,7 @@ impl<I: Integrator> SoftEngine for FixedGrid<PredictorCorrector<I>, Sine> {
     const METHOD: &'static str = I::NAME;
     const PASSES: f64 = 1.0;
 
-    fn start(setup: Setup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self {
+    fn start(setup: SoftDiskSetup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self {
         let mut engine = Self::new(setup, disks, drive);
         engine.set_motion(|disks| disks.velocity[..3 * rates.len()].copy_from_slice(rates.as_flattened()));
         engine
@@ -62,7 +62,7 @@ impl SoftEngine for Located {
     const METHOD: &'static str = "located events, order 4";
     const PASSES: f64 = 2.0;
 
-    fn start(setup: Setup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self {
+    fn start(setup: SoftDiskSetup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self {
         let mut engine = Self::new(setup, disks, drive);
         engine.set_motion(|disks| disks.velocities.copy_from_slice(rates));
         engine

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use jostle::collision::{CollisionLaw, Dashpot, Impact, TabulatedDashpot};
 use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
-use jostle::engine::dem::{ContactLaws, Setup, TimeStepLimits};
+use jostle::engine::dem::{ContactLaws, SoftDiskSetup, TimeStepLimits};
 use jostle::geometry::{Disk, Wall};
 
 use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder, root_mean_square};
@@ -173,7 +173,7 @@ pub fn by_tolerance(tolerances: impl Iterator<Item = f64>) -> Case {
 
 /// The disk just before touch, at `place` of a time step; and when to look at it.
 fn engine<E: SoftEngine>(hit: Hit, step: f64, place: f64) -> (E, f64) {
-    let setup = Setup {
+    let setup = SoftDiskSetup {
         laws: hit.laws(),
         walls: vec![Wall::vibrating_floor()],
         masses: vec![mass()],

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 
 use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
-use jostle::engine::dem::{ContactLaws, Setup};
+use jostle::engine::dem::{ContactLaws, SoftDiskSetup};
 use jostle::geometry::{Disk, Wall};
 
 use super::case::{Case, Done, Point, Stopwatch, ladder};
@@ -120,7 +120,7 @@ impl Oscillator {
                 friction: 10.0,
             },
         };
-        let setup = Setup {
+        let setup = SoftDiskSetup {
             laws,
             walls: self.walls.clone(),
             masses: vec![self.mass],

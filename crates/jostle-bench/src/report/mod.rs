@@ -41,7 +41,7 @@ const LONG_ENOUGH: f64 = 4.0;
     after_help = "Example:\n  jostle-bench report --out results/report --only one_impact\n\n\
     All cases take some five minutes on an idle core."
 )]
-pub struct Report {
+pub struct ReportCommand {
     /// Folder for the files; made if it does not exist.
     #[arg(long, value_name = "FOLDER", default_value = "results/report")]
     out: PathBuf,
@@ -63,7 +63,7 @@ pub struct Measured {
     outcome: std::result::Result<(Done, f64), String>,
 }
 
-impl Report {
+impl ReportCommand {
     pub fn execute(self) -> Result<()> {
         let cases = self.chosen()?;
         if self.list {
@@ -228,17 +228,17 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_case_is_told_with_the_known_ones() {
-        let report = Report {
+    fn an_unknown_case_is_refused_with_the_known_ones() {
+        let report = ReportCommand {
             out: PathBuf::new(),
             rounds: 1,
             only: vec!["sandpile".into()],
             list: false,
         };
-        let told = report.execute().unwrap_err().to_string();
+        let message = report.execute().unwrap_err().to_string();
         assert!(
-            told.starts_with("--only = sandpile is not allowed: one of: one_impact"),
-            "{told}"
+            message.starts_with("--only = sandpile is not allowed: one of: one_impact"),
+            "{message}"
         );
     }
 

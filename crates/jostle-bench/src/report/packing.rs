@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
-use jostle::engine::dem::{ContactLaws, Setup, TimeStepLimits};
+use jostle::engine::dem::{ContactLaws, SoftDiskSetup, TimeStepLimits};
 use jostle::geometry::{Disk, Wall};
 use jostle::scene::Simulation;
 use jostle::scene::packing::PackingOnSine;
@@ -187,7 +187,7 @@ fn engine<E: SoftEngine>(start: &[Start], time_step: f64) -> E {
         offset: drive.amplitude,
         ..Wall::vibrating_floor()
     };
-    let setup = Setup {
+    let setup = SoftDiskSetup {
         laws: laws(),
         walls: vec![bottom, Wall::left(0.0), Wall::right(WIDTH)],
         masses: start.iter().map(Start::mass).collect(),

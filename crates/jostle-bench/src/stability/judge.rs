@@ -152,12 +152,12 @@ pub fn judge(probe: &Probe, budget: f64) -> Judged {
     judged.energy_error = watch.energy_error;
     judged.overlap = watch.overlap;
     if !watch.violated.is_empty() {
-        let told: Vec<String> = watch
+        let violations: Vec<String> = watch
             .violated
             .iter()
             .map(|(criterion, what)| format!("{criterion}: {what}"))
             .collect();
-        judged.outcome = Outcome::Violated(told.join("; "));
+        judged.outcome = Outcome::Violated(violations.join("; "));
     } else if let Some(error) = refusal {
         judged.outcome = Outcome::Refused(error.to_string());
     }

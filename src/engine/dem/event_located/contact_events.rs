@@ -5,11 +5,11 @@
 //! contact's own law is a linear equation in each phase, solved by its power series, whose roots are the events.
 
 use super::contact_step::{ContactStep, Outcome};
-use super::frame::{Frame, HermiteCubic};
+use super::frame::{ContactFrame, HermiteCubic};
 use super::impulse::{ContactForces, ContactImpulse, QuadratureNode};
 use super::laws::Laws;
 use super::polynomial::{LENGTH, Polynomial};
-use super::state::Phase;
+use super::state::LocatedPhase;
 
 /// Segments of one step; what is beyond stays in the last phase. Grazing events could else alternate without end.
 const MOST_SEGMENTS: usize = 12;
@@ -51,7 +51,7 @@ struct KnownRoots {
 /// Phase of a segment, lambda* in it, and what vanishes at its start.
 #[derive(Clone, Copy)]
 struct SegmentPhase {
-    phase: Phase,
+    phase: LocatedPhase,
     reference: f64,
     roots: KnownRoots,
 }
@@ -85,7 +85,7 @@ struct Found {
     event: Event,
 }
 
-impl<F: Frame> ContactStep<'_, F> {
+impl<F: ContactFrame> ContactStep<'_, F> {
     /// Integrals over a step in which the phase changes, with the phase at its end.
     pub fn integrate_with_events(&self, laws: &Laws) -> Outcome {
         let external = self.external_acceleration();
@@ -123,7 +123,7 @@ impl<F: Frame> ContactStep<'_, F> {
 
     fn finish(&self, laws: &Laws, last: SegmentPhase, motion: RelativeMotion, given: ContactImpulse) -> Outcome {
         let phase = match last.phase {
-            Phase::Unpressed if self.end.overlap <= 0.0 => Phase::Open,
+            LocatedPhase::Unpressed if self.end.overlap <= 0.0 => LocatedPhase::Open,
             other => other,
         };
         let force = laws.normal_force(motion.overlap, motion.closing);
@@ -204,7 +204,7 @@ impl<F: Frame> ContactStep<'_, F> {
             if i + 2 < LENGTH {
                 let (own_normal, own_tangential) = match start.phase {
                     _ if !pressed => (0.0, 0.0),
-                    Phase::Stick => {
+                    LocatedPhase::Stick => {
                         let stretch = displacement[i] - if i == 0 { start.reference } else { 0.0 };
                         (force[i], laws.tangential.force(stretch))
                     }
@@ -229,10 +229,10 @@ impl<F: Frame> ContactStep<'_, F> {
     /// Adds the impulse of a segment up to the scaled time `end`.
     fn integrate(&self, laws: &Laws, segment: &Segment, end: f64, given: &mut ContactImpulse) {
         let SegmentPhase { phase, reference, .. } = segment.start;
-        if phase == Phase::Open {
+        if phase == LocatedPhase::Open {
             return;
         }
-        if phase == Phase::Unpressed {
+        if phase == LocatedPhase::Unpressed {
             let energy = |x: f64| laws.normal.energy(segment.overlap.at(x).max(0.0));
             given.lost += energy(0.0) - energy(end);
             return;
@@ -302,9 +302,9 @@ impl Segment {
             when(falling.first_rise(roots.force), Event::Release)
         };
         match phase {
-            Phase::Open => when(self.overlap.first_rise(0), Event::Touch),
-            Phase::Unpressed => when(self.force.first_rise(roots.force), Event::Press),
-            Phase::Stick => {
+            LocatedPhase::Open => when(self.overlap.first_rise(0), Event::Touch),
+            LocatedPhase::Unpressed => when(self.force.first_rise(roots.force), Event::Press),
+            LocatedPhase::Stick => {
                 let stretch = self.tangential_displacement.raised(-reference);
                 let yields = |sense: f64, roots: usize| {
                     let beyond = stretch.mixed(sense, &self.force, -laws.slip_compliance);
@@ -313,7 +313,7 @@ impl Segment {
                 let either = earlier(yields(1.0, roots.yields[0]), yields(-1.0, roots.yields[1]));
                 earlier(release(), either)
             }
-            Phase::SlipForward | Phase::SlipBackward => {
+            LocatedPhase::SlipForward | LocatedPhase::SlipBackward => {
                 let sense = phase.slip_sense()?;
                 let hold = if laws.has_friction() {
                     let slip = self
@@ -330,11 +330,11 @@ impl Segment {
     }
 }
 
-fn slipping(sense: f64) -> Phase {
+fn slipping(sense: f64) -> LocatedPhase {
     if sense > 0.0 {
-        Phase::SlipForward
+        LocatedPhase::SlipForward
     } else {
-        Phase::SlipBackward
+        LocatedPhase::SlipBackward
     }
 }
 
@@ -346,7 +346,11 @@ fn closed_phase(laws: &Laws, motion: &RelativeMotion, from_zero: bool) -> Segmen
     let outrun = motion.sliding.abs() > laws.slip_compliance * laws.normal.stiffness * motion.closing;
     let slips = !laws.has_friction() || (from_zero && outrun);
     SegmentPhase {
-        phase: if slips { slipping(motion.sliding) } else { Phase::Stick },
+        phase: if slips {
+            slipping(motion.sliding)
+        } else {
+            LocatedPhase::Stick
+        },
         reference: motion.tangential_displacement,
         roots: KnownRoots {
             force,
@@ -366,9 +370,9 @@ fn next_phase(laws: &Laws, event: Event, before: SegmentPhase, motion: &mut Rela
         Event::Press => closed_phase(laws, motion, true),
         Event::Release => SegmentPhase {
             phase: if motion.overlap > 0.0 {
-                Phase::Unpressed
+                LocatedPhase::Unpressed
             } else {
-                Phase::Open
+                LocatedPhase::Open
             },
             reference: motion.tangential_displacement,
             roots: KnownRoots {
@@ -385,7 +389,7 @@ fn next_phase(laws: &Laws, event: Event, before: SegmentPhase, motion: &mut Rela
             let sense = before.phase.slip_sense().unwrap_or(1.0);
             let force = laws.normal_force(motion.overlap, motion.closing);
             SegmentPhase {
-                phase: Phase::Stick,
+                phase: LocatedPhase::Stick,
                 reference: motion.tangential_displacement - sense * laws.slip_compliance * force,
                 roots: KnownRoots {
                     yields: if sense > 0.0 { [2, 0] } else { [0, 2] },

@@ -3,16 +3,16 @@
 //! Between the ends the motion is Hermite's cubic. While the contact stays in its phase the force is integrated along it
 //! by Gauss's rule with two nodes; the step in which the phase changes is left to `contact_events`.
 
-use super::frame::{Frame, HermiteCubic};
+use super::frame::{ContactFrame, HermiteCubic};
 use super::impulse::{ContactForces, ContactImpulse, OwnImpulse, QuadratureNode};
 use super::laws::Laws;
-use super::state::{Contact, Kinematics, Phase};
+use super::state::{Contact, Kinematics, LocatedPhase};
 
 /// The contact after a step, and what it gave to its bodies.
 #[derive(Debug, Clone, Copy)]
 pub struct Outcome {
     /// Phase at the end.
-    pub phase: Phase,
+    pub phase: LocatedPhase,
     /// lambda* at the end \[m\].
     pub reference: f64,
     /// Rate of the closing velocity at the end \[m/s2\].
@@ -56,20 +56,20 @@ fn stays_below([value, rate]: [f64; 2], [end_value, end_rate]: [f64; 2], step: f
     value <= 0.0 && value + third * rate <= 0.0 && end_value - third * end_rate <= 0.0 && end_value <= 0.0
 }
 
-impl<F: Frame> ContactStep<'_, F> {
+impl<F: ContactFrame> ContactStep<'_, F> {
     /// Integrals over the step if the phase does not change in it. Energies are summed in the `LAST` pass only.
     #[inline(always)]
     pub fn within_phase<const LAST: bool>(&self, laws: &Laws) -> Option<Outcome> {
         match self.contact.phase {
-            Phase::Open => self.apart(),
-            Phase::Unpressed => self.unpressed(laws),
-            Phase::Stick => self.sticking::<LAST>(laws),
-            Phase::SlipForward => self.slipping::<LAST>(laws, 1.0),
-            Phase::SlipBackward => self.slipping::<LAST>(laws, -1.0),
+            LocatedPhase::Open => self.apart(),
+            LocatedPhase::Unpressed => self.unpressed(laws),
+            LocatedPhase::Stick => self.sticking::<LAST>(laws),
+            LocatedPhase::SlipForward => self.slipping::<LAST>(laws, 1.0),
+            LocatedPhase::SlipBackward => self.slipping::<LAST>(laws, -1.0),
         }
     }
 
-    fn resting(&self, phase: Phase) -> Outcome {
+    fn resting(&self, phase: LocatedPhase) -> Outcome {
         Outcome {
             phase,
             reference: self.contact.reference,
@@ -81,7 +81,7 @@ impl<F: Frame> ContactStep<'_, F> {
     fn apart(&self) -> Option<Outcome> {
         let (start, end) = (self.start, self.end);
         let apart = stays_below([start.overlap, start.closing], [end.overlap, end.closing], self.step);
-        apart.then(|| self.resting(Phase::Open))
+        apart.then(|| self.resting(LocatedPhase::Open))
     }
 
     fn unpressed(&self, laws: &Laws) -> Option<Outcome> {
@@ -90,9 +90,9 @@ impl<F: Frame> ContactStep<'_, F> {
             return None;
         }
         let phase = if end.overlap > 0.0 {
-            Phase::Unpressed
+            LocatedPhase::Unpressed
         } else {
-            Phase::Open
+            LocatedPhase::Open
         };
         let mut outcome = self.resting(phase);
         // The spring gives way to nothing.
@@ -155,7 +155,7 @@ impl<F: Frame> ContactStep<'_, F> {
             }
         }
         Some(Outcome {
-            phase: Phase::Stick,
+            phase: LocatedPhase::Stick,
             reference: self.contact.reference,
             closing_rate: rates[1],
             given,

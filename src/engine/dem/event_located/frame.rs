@@ -38,7 +38,7 @@ impl HermiteCubic {
 }
 
 /// Frame of a contact at the fraction x of a step.
-pub trait Frame {
+pub trait ContactFrame {
     /// Unit normal.
     fn normal(&self, x: &HermiteCubic) -> [f64; 2];
     /// Lever of the tangential force, at this overlap \[m\].
@@ -69,7 +69,7 @@ impl PairFrame {
     }
 }
 
-impl Frame for PairFrame {
+impl ContactFrame for PairFrame {
     #[inline(always)]
     fn normal(&self, x: &HermiteCubic) -> [f64; 2] {
         let part = |axis: usize| {
@@ -107,7 +107,7 @@ pub struct WallFrame {
     pub step: f64,
 }
 
-impl Frame for WallFrame {
+impl ContactFrame for WallFrame {
     #[inline(always)]
     fn normal(&self, _x: &HermiteCubic) -> [f64; 2] {
         self.normal

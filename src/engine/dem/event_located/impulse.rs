@@ -1,6 +1,6 @@
 //! Impulse of one contact on its two bodies in one step.
 
-use super::frame::{Frame, HermiteCubic};
+use super::frame::{ContactFrame, HermiteCubic};
 
 /// Integrals of a contact's own force over a step: impulse and first moment about the end of the step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -51,7 +51,7 @@ pub struct QuadratureNode {
 impl ContactImpulse {
     /// Adds a node.
     #[inline(always)]
-    pub fn add<F: Frame>(&mut self, frame: &F, forces: &ContactForces, node: &QuadratureNode) {
+    pub fn add<F: ContactFrame>(&mut self, frame: &F, forces: &ContactForces, node: &QuadratureNode) {
         let [nx, ny] = frame.normal(&node.value);
         let (normal, tangential) = (node.span * forces.normal, node.span * forces.tangential);
         let sideways = tangential * frame.lever(forces.overlap);

@@ -2,7 +2,7 @@
 
 use crate::contact::{ContactLaws, LinearDashpot, TangentialSpring};
 
-use super::state::{Contact, Phase};
+use super::state::{Contact, LocatedPhase};
 
 /// Normal and tangential force.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,10 +56,10 @@ impl Laws {
     /// Energy \[J\] in both springs of a contact with this overlap \[m\].
     pub fn elastic_energy(&self, contact: &Contact, overlap: f64) -> f64 {
         let stretch = match contact.phase {
-            Phase::Open => return 0.0,
-            Phase::Unpressed => 0.0,
-            Phase::Stick => contact.kinematics.tangential_displacement - contact.reference,
-            Phase::SlipForward | Phase::SlipBackward => {
+            LocatedPhase::Open => return 0.0,
+            LocatedPhase::Unpressed => 0.0,
+            LocatedPhase::Stick => contact.kinematics.tangential_displacement - contact.reference,
+            LocatedPhase::SlipForward | LocatedPhase::SlipBackward => {
                 self.slip_compliance * self.normal_force(overlap, contact.kinematics.closing)
             }
         };

@@ -25,10 +25,10 @@ use crate::error::are_sane;
 use crate::geometry::Disk;
 
 use super::candidates::Candidate;
-use super::fixed_grid::{State, Stepper};
-use super::setup::{Breakdown, Setup, SoftDisks};
+use super::fixed_grid::{GridState, Stepper};
+use super::setup::{Breakdown, SoftDiskSetup, SoftDisks};
 
-pub use state::{Contact, Disks, Kinematics, Phase};
+pub use state::{Contact, Disks, Kinematics, LocatedPhase};
 
 use kinematics::DiskArrays;
 use laws::Laws;
@@ -51,7 +51,7 @@ impl Stepper for EventStepper {
 
     const WORK_OF_STEP: f64 = 1.0;
 
-    fn at_rest(setup: Setup, disks: &[Disk]) -> (Self, Disks) {
+    fn at_rest(setup: SoftDiskSetup, disks: &[Disk]) -> (Self, Disks) {
         let inverse_masses = disks.iter().zip(&setup.masses).map(|(disk, mass)| {
             let inertia = 0.5 * mass * disk.radius * disk.radius;
             [1.0 / mass, 1.0 / mass, 1.0 / inertia]
@@ -77,7 +77,7 @@ impl Stepper for EventStepper {
         &self.constants
     }
 
-    fn start<D>(&mut self, state: &mut State<D, Disks>) {
+    fn start<D>(&mut self, state: &mut GridState<D, Disks>) {
         state.disks.remainders.fill([[0.0; 3]; 2]);
         state.disks.pairs.clear();
         state.disks.wall_contacts.clear();
@@ -91,7 +91,7 @@ impl Stepper for EventStepper {
         (state.disks.pairs, state.disks.wall_contacts) = (pairs, wall_contacts);
     }
 
-    fn step<D: Drive>(&mut self, state: &mut State<D, Disks>, duration: f64, time: f64) -> Result<(), Breakdown> {
+    fn step<D: Drive>(&mut self, state: &mut GridState<D, Disks>, duration: f64, time: f64) -> Result<(), Breakdown> {
         let base = state.drive.motion(time);
         let end = EndOfStep {
             time,
@@ -134,7 +134,7 @@ impl Stepper for EventStepper {
         are_sane(motion.chain(disks.wall_impulses.iter().flatten()).copied())
     }
 
-    fn fits<D>(&self, own: &Disks, state: &State<D, Disks>) -> bool {
+    fn fits<D>(&self, own: &Disks, state: &GridState<D, Disks>) -> bool {
         let lengths = |disks: &Disks| {
             [
                 disks.positions.len(),
@@ -163,7 +163,7 @@ impl Stepper for EventStepper {
 
 impl EventStepper {
     /// Makes the end of the step the state.
-    fn commit<D>(&mut self, state: &mut State<D, Disks>, base: Motion, time: f64) -> Result<(), Breakdown> {
+    fn commit<D>(&mut self, state: &mut GridState<D, Disks>, base: Motion, time: f64) -> Result<(), Breakdown> {
         let (disks, scratch) = (&mut state.disks, &mut self.scratch);
         let sums = scratch.sums;
         self.constants.check_overlap(sums.deepest, time)?;

@@ -2,7 +2,7 @@
 
 use crate::engine::dem::candidates::{near_walls, renew};
 use crate::engine::dem::cell_grid::{CellGrid, Cloud};
-use crate::engine::dem::fixed_grid::State;
+use crate::engine::dem::fixed_grid::GridState;
 use crate::engine::dem::setup::{Breakdown, SoftDisks};
 
 use super::state::{Contact, Disks};
@@ -24,12 +24,12 @@ pub struct NeighbourList {
 
 impl NeighbourList {
     /// Builds the list of all candidates at the start of a run.
-    pub fn build<D>(&mut self, state: &mut State<D, Disks>, constants: &SoftDisks) {
+    pub fn build<D>(&mut self, state: &mut GridState<D, Disks>, constants: &SoftDisks) {
         self.build_with(state, constants, MARGIN * constants.smallest_radius);
     }
 
     /// Puts all candidates with a gap below `margin` \[m\] into the list; contacts that are not open keep their memory.
-    fn build_with<D>(&mut self, state: &mut State<D, Disks>, constants: &SoftDisks, margin: f64) {
+    fn build_with<D>(&mut self, state: &mut GridState<D, Disks>, constants: &SoftDisks, margin: f64) {
         let (disks, base) = (&mut state.disks, state.base.displacement);
         disks.list_margin = margin;
         disks.positions_at_list_build.clone_from(&disks.positions);
@@ -56,7 +56,7 @@ impl NeighbourList {
     /// A body moves too far in one step.
     pub fn build_if_due<D>(
         &mut self,
-        state: &mut State<D, Disks>,
+        state: &mut GridState<D, Disks>,
         constants: &SoftDisks,
         duration: f64,
         end: EndOfStep,

@@ -8,7 +8,7 @@ use crate::error::are_sane;
 
 /// Phase of a contact, in which its force is a smooth function of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Phase {
+pub enum LocatedPhase {
     /// Apart.
     Open,
     /// Overlapping while the force is cut off at zero: the disks leave faster than the spring can follow.
@@ -21,7 +21,7 @@ pub enum Phase {
     SlipBackward,
 }
 
-impl Phase {
+impl LocatedPhase {
     /// Sign of the stretch while slipping.
     #[inline]
     pub fn slip_sense(self) -> Option<f64> {
@@ -66,7 +66,7 @@ pub struct Contact {
     /// Index of the other disk or of the wall.
     pub second: u32,
     /// Phase at the grid point.
-    pub phase: Phase,
+    pub phase: LocatedPhase,
     /// Direction from which the angle of the normal is counted.
     pub direction: [f64; 2],
     /// lambda* \[m\].
@@ -83,7 +83,7 @@ impl Contact {
         Self {
             first,
             second,
-            phase: Phase::Open,
+            phase: LocatedPhase::Open,
             direction: [0.0; 2],
             reference: 0.0,
             kinematics: Kinematics::default(),
@@ -122,7 +122,7 @@ impl Candidate for Contact {
     }
 
     fn remembers(&self) -> bool {
-        self.phase != Phase::Open
+        self.phase != LocatedPhase::Open
     }
 }
 

@@ -6,11 +6,11 @@ use crate::geometry::Wall;
 
 use super::contact_step::ContactStep;
 use super::extrapolation::{along_tangent, extrapolated};
-use super::frame::{Frame, PairFrame, WallFrame};
+use super::frame::{ContactFrame, PairFrame, WallFrame};
 use super::impulse::{ContactImpulse, OwnImpulse};
 use super::kinematics::DiskArrays;
 use super::laws::Laws;
-use super::state::{Contact, Kinematics, Phase};
+use super::state::{Contact, Kinematics, LocatedPhase};
 
 /// What does not change during a step, and the disks at its start.
 #[derive(Clone, Copy)]
@@ -201,9 +201,9 @@ pub fn close_overlapping(context: &StepContext<'_>, pairs: &mut [Contact], wall_
         }
         let pressed = context.laws.normal_force(kinematics.overlap, kinematics.closing) > 0.0;
         contact.phase = match pressed {
-            true if context.laws.has_friction() => Phase::Stick,
-            true => Phase::SlipForward,
-            false => Phase::Unpressed,
+            true if context.laws.has_friction() => LocatedPhase::Stick,
+            true => LocatedPhase::SlipForward,
+            false => LocatedPhase::Unpressed,
         };
         contact.direction = kinematics.normal;
         contact.reference = kinematics.tangential_displacement;
@@ -248,7 +248,7 @@ fn pair_step<const LAST: bool>(
 ) -> Option<ContactImpulse> {
     let pair = contact.bodies();
     let radius_sum = now.radii[pair[0]] + now.radii[pair[1]];
-    let is_open = contact.phase == Phase::Open;
+    let is_open = contact.phase == LocatedPhase::Open;
     if is_open {
         let [dx, dy] = now.difference(pair);
         let (va, vb) = (&now.velocities[pair[0]], &now.velocities[pair[1]]);
@@ -304,7 +304,7 @@ fn wall_step<const LAST: bool>(
     let [disk, wall] = contact.bodies();
     let wall = &context.walls[wall];
     let end = now.of_wall(disk, wall, &context.base[1]);
-    let is_open = contact.phase == Phase::Open;
+    let is_open = contact.phase == LocatedPhase::Open;
     if is_open && end.overlap <= 0.0 && end.overlap <= context.step * end.closing {
         slot.touched = false;
         return None;
@@ -337,7 +337,7 @@ fn wall_step<const LAST: bool>(
 
 /// Integrates one contact; `slot` receives what it is afterwards.
 #[inline(always)]
-fn contact_step<const LAST: bool, F: Frame>(
+fn contact_step<const LAST: bool, F: ContactFrame>(
     step: &ContactStep<'_, F>,
     laws: &Laws,
     slot: &mut ContactEnd,

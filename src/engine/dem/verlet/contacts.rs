@@ -106,7 +106,7 @@ mod tests {
 
     /// Many turns of the line of centres, through +-pi, add up without a jump.
     #[test]
-    fn beta_unwraps() {
+    fn the_contact_angle_unwraps() {
         let mut spring = SpringMemory {
             direction: [1.0, 0.0],
             reference: 0.0,

@@ -17,8 +17,8 @@ use crate::error::are_sane;
 use crate::geometry::Disk;
 
 use super::cell_grid::Cloud;
-use super::fixed_grid::{State, Stepper};
-use super::setup::{Breakdown, Setup, SoftDisks};
+use super::fixed_grid::{GridState, Stepper};
+use super::setup::{Breakdown, SoftDiskSetup, SoftDisks};
 
 pub use contacts::{Pair, SpringMemory, WallContact};
 pub use gear::Gear5;
@@ -50,7 +50,7 @@ impl<I: Integrator> Stepper for PredictorCorrector<I> {
 
     const WORK_OF_STEP: f64 = 0.1;
 
-    fn at_rest(setup: Setup, disks: &[Disk]) -> (Self, Disks) {
+    fn at_rest(setup: SoftDiskSetup, disks: &[Disk]) -> (Self, Disks) {
         let (mut position, mut inverse_mass, mut weight) = (Vec::new(), Vec::new(), Vec::new());
         for (disk, mass) in disks.iter().zip(&setup.masses) {
             position.extend([disk.x, disk.y, 0.0]);
@@ -86,7 +86,7 @@ impl<I: Integrator> Stepper for PredictorCorrector<I> {
         &self.constants
     }
 
-    fn start<D>(&mut self, state: &mut State<D, Disks>) {
+    fn start<D>(&mut self, state: &mut GridState<D, Disks>) {
         self.build_list(state);
         let sums = self.evaluate(state, 0.0);
         let accelerations = state.disks.acceleration.iter_mut();
@@ -97,14 +97,14 @@ impl<I: Integrator> Stepper for PredictorCorrector<I> {
         state.contacts = sums.contacts;
     }
 
-    fn step<D: Drive>(&mut self, state: &mut State<D, Disks>, duration: f64, time: f64) -> Result<(), Breakdown> {
+    fn step<D: Drive>(&mut self, state: &mut GridState<D, Disks>, duration: f64, time: f64) -> Result<(), Breakdown> {
         I::predict(coordinates(&mut state.disks), duration);
         self.evaluate_prediction(state, duration, time)?;
         I::correct(coordinates(&mut state.disks), &self.force, &self.inverse_mass, duration);
         Ok(())
     }
 
-    fn run<D: Drive>(&mut self, state: &mut State<D, Disks>, target: u64) -> Result<(), Breakdown> {
+    fn run<D: Drive>(&mut self, state: &mut GridState<D, Disks>, target: u64) -> Result<(), Breakdown> {
         if state.steps >= target {
             return Ok(());
         }
@@ -155,7 +155,7 @@ impl<I: Integrator> Stepper for PredictorCorrector<I> {
         are_sane(vectors.copied().chain([disks.base_force, disks.dissipated_power]))
     }
 
-    fn fits<D>(&self, own: &Disks, state: &State<D, Disks>) -> bool {
+    fn fits<D>(&self, own: &Disks, state: &GridState<D, Disks>) -> bool {
         let lengths = |disks: &Disks| {
             [
                 disks.position.len(),
@@ -191,7 +191,7 @@ impl<I: Integrator> PredictorCorrector<I> {
     /// What lies between prediction and correction of a step: base, neighbours, forces and the balance of energy.
     fn evaluate_prediction<D: Drive>(
         &mut self,
-        state: &mut State<D, Disks>,
+        state: &mut GridState<D, Disks>,
         duration: f64,
         time: f64,
     ) -> Result<(), Breakdown> {
@@ -212,7 +212,7 @@ impl<I: Integrator> PredictorCorrector<I> {
 
     /// Forces at the present positions, velocities and base motion, into `self.force`. Compiled with tangential springs and
     /// without, so that the loops hold no branch on it.
-    fn evaluate<D>(&mut self, state: &mut State<D, Disks>, duration: f64) -> ForceSums {
+    fn evaluate<D>(&mut self, state: &mut GridState<D, Disks>, duration: f64) -> ForceSums {
         if self.constants.setup.laws.tangential.acts() {
             self.evaluate_with::<true>(&mut state.disks, state.base, duration, state.contacts)
         } else {
@@ -257,7 +257,7 @@ impl<I: Integrator> PredictorCorrector<I> {
     }
 
     /// Builds the neighbour list anew if a disk or the base has moved by half the margin since it was built.
-    fn build_list_if_due<D>(&mut self, state: &mut State<D, Disks>, time: f64) -> Result<(), Breakdown> {
+    fn build_list_if_due<D>(&mut self, state: &mut GridState<D, Disks>, time: f64) -> Result<(), Breakdown> {
         let disks = &state.disks;
         let farthest = farthest_squared(disks.positions(), &disks.positions_at_list_build);
         let base_moved = (state.base.displacement - disks.base_at_list_build).abs();
@@ -272,7 +272,7 @@ impl<I: Integrator> PredictorCorrector<I> {
         Ok(())
     }
 
-    fn build_list<D>(&mut self, state: &mut State<D, Disks>) {
+    fn build_list<D>(&mut self, state: &mut GridState<D, Disks>) {
         let (count, setup) = (self.constants.radii.len(), &self.constants.setup);
         let disks = &mut state.disks;
         disks.positions_at_list_build.clear();

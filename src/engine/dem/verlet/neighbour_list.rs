@@ -129,7 +129,7 @@ mod tests {
 
     /// The grid finds what comparing all pairs finds, in clouds of every density, with one disk far away.
     #[test]
-    fn finds_what_brute_force_finds() {
+    fn the_neighbour_list_finds_what_brute_force_finds() {
         let mut random = Pcg64::seed_from_u64(7);
         for extent in [0.01, 0.3, 3.0, 100.0] {
             let count = 150;

@@ -158,7 +158,7 @@ fn strong_torques_never_let_the_disk_rest() {
 }
 
 #[test]
-fn without_tilt_or_with_the_other_tilt_the_mirror_image_comes_out() {
+fn opposite_tilts_give_mirrored_cycles() {
     for setting in settings() {
         for share in SHARES {
             let torque = HarmonicTorque {

@@ -253,7 +253,7 @@ impl Oscillators {
                 remedy: "Take a shorter step.".into(),
             });
         }
-        assert!(end_time <= self.panic_time, "told to panic at {} s", self.panic_time);
+        assert!(end_time <= self.panic_time, "set to panic at {} s", self.panic_time);
         Ok(())
     }
 

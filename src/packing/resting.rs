@@ -21,7 +21,7 @@ pub(super) fn slack(distance: f64, point: Vector2<f64>) -> f64 {
 /// of radii of 1e8, where a Newton step on top gains a factor of two, and to a few 1e-16 at ordinary ratios.
 pub(super) fn on_disks(a: &Disk, b: &Disk, radius: f64) -> Option<Vector2<f64>> {
     let separation = b.centre() - a.centre();
-    let distance = separation.norm(); // not hypot, whose last bit depends on the machine
+    let distance = separation.norm_squared().sqrt(); // not hypot, whose last bit depends on the machine
     let (sum_a, sum_b) = (a.radius + radius, b.radius + radius);
     let widest = sum_a + sum_b;
     let difference = a.radius - b.radius;

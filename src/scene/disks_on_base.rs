@@ -209,7 +209,7 @@ pub fn radii<M>(
     disks: u32,
     nominal: f64,
     at_start: &Arc<[&'static str]>,
-    read: fn(&M, usize) -> f64,
+    read: impl Fn(&M, usize) -> f64 + Send + Sync + 'static,
 ) -> impl Iterator<Item = Row<M>> {
     Row::outputs("disk.radius", disks, Unit::METRE, nominal, "Radius of disk {}", read)
         .map(|row| row.constant().depending_on(at_start))

@@ -21,7 +21,7 @@ impl<M: Model> Trial<M> {
         let disks = disks.min(*info.structure[0].range.end());
         let structure = StructuralParameters::choose(&info, &[("disks", disks)]).expect("in range");
         let rows = M::variables(&structure);
-        let reads = rows.iter().filter_map(|row| row.read).collect();
+        let reads = rows.iter().filter_map(|row| row.read.clone()).collect();
         let table = Table::new(rows.into_iter().map(|row| row.variable).collect());
         Self {
             structure,

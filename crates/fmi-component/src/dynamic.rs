@@ -77,6 +77,7 @@ pub trait DynSimulation: Send {
     fn position(&self, name: &str) -> Result<usize>;
     fn set_at(&mut self, position: usize, value: Value) -> Result<()>;
     fn value(&self, position: usize) -> Result<Value>;
+    fn read_reals(&self, first: usize, out: &mut [f64]) -> Result<()>;
     fn set_start_time(&mut self, time: f64) -> Result<()>;
     fn start(&mut self, time: f64) -> Result<()>;
     fn reset(&mut self);
@@ -127,6 +128,10 @@ impl<M: Model> DynSimulation for Simulation<M> {
 
     fn value(&self, position: usize) -> Result<Value> {
         self.value(position)
+    }
+
+    fn read_reals(&self, first: usize, out: &mut [f64]) -> Result<()> {
+        self.read_reals(first, out)
     }
 
     fn set_start_time(&mut self, time: f64) -> Result<()> {

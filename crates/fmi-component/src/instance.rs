@@ -21,8 +21,8 @@ use crate::variable::{Causality, Kind, Value};
 pub use saving::Snapshot;
 pub use stepping::Part;
 use stepping::UnderWay;
-pub use values::Access;
 use values::Slot;
+pub use values::{Access, does_not_fit};
 
 /// What the importer said that it can do when it made the instance (FMI 3.0; in FMI 2.0 nothing of this).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -49,6 +49,18 @@ impl<T> Output<T> {
             unsafe { self.pointer.add(index).write(value) };
         }
     }
+
+    /// Writes all `values`, as many as there is room for.
+    pub fn write_all(&mut self, values: &[T])
+    where
+        T: Copy,
+    {
+        let count = values.len().min(self.count);
+        if count > 0 {
+            // SAFETY: inside the array that `new` checked and its caller vouched for; memory of ours does not overlap it.
+            unsafe { self.pointer.copy_from_nonoverlapping(values.as_ptr(), count) };
+        }
+    }
 }
 
 /// Reads one value, such as a handle that is to be replaced.

@@ -6,37 +6,82 @@ use std::sync::Arc;
 use crate::unit::Unit;
 use crate::variable::{Causality, Kind, Quantity, TerminalMember, Value, Variable};
 
+/// Fills a slice with the elements of a real array from an index on, counted from 0.
+type Fill<M> = Arc<dyn Fn(&M, usize, &mut [f64]) + Send + Sync>;
+
 /// How the value of a computed variable is read from a model. Reading changes nothing.
-#[derive(Debug)]
 pub enum Read<M> {
     /// A real.
     Real(fn(&M) -> f64),
     /// Element of a real array, counted from 0.
     RealElement(fn(&M, usize) -> f64, usize),
+    /// Element of a real array whose elements are variables in a row.
+    RealArray {
+        /// Reads any number of them.
+        fill: Fill<M>,
+        /// Number of the element, counted from 0.
+        index: usize,
+        /// Elements of the array.
+        count: usize,
+    },
     /// A whole number or the number of an option.
     Integer(fn(&M) -> i64),
     /// Element of an array of whole numbers, counted from 0.
     IntegerElement(fn(&M, usize) -> i64, usize),
 }
 
-// Derived ones would ask for M: Copy.
+// A derived one would ask for M: Clone.
 impl<M> Clone for Read<M> {
     fn clone(&self) -> Self {
-        *self
+        match *self {
+            Self::Real(read) => Self::Real(read),
+            Self::RealElement(read, index) => Self::RealElement(read, index),
+            Self::RealArray { ref fill, index, count } => Self::RealArray {
+                fill: Arc::clone(fill),
+                index,
+                count,
+            },
+            Self::Integer(read) => Self::Integer(read),
+            Self::IntegerElement(read, index) => Self::IntegerElement(read, index),
+        }
     }
 }
 
-impl<M> Copy for Read<M> {}
+impl<M> std::fmt::Debug for Read<M> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("Read")
+    }
+}
 
 impl<M> Read<M> {
     /// The present value.
     pub fn value(&self, model: &M) -> Value {
+        let mut real = [0.0];
         match *self {
-            Self::Real(read) => Value::Real(read(model)),
-            Self::RealElement(read, index) => Value::Real(read(model, index)),
             Self::Integer(read) => Value::Integer(read(model)),
             Self::IntegerElement(read, index) => Value::Integer(read(model, index)),
+            _ => {
+                self.fill(model, &mut real);
+                Value::Real(real[0])
+            }
         }
+    }
+
+    /// Fills `out`, which is not empty, from its beginning with this value and, of an array, with the elements that follow;
+    /// gives how many values that were. Whole numbers are read by [`Read::value`] alone: none is filled.
+    #[inline]
+    pub(crate) fn fill(&self, model: &M, out: &mut [f64]) -> usize {
+        match *self {
+            Self::Real(read) => out[0] = read(model),
+            Self::RealElement(read, index) => out[0] = read(model, index),
+            Self::RealArray { ref fill, index, count } => {
+                let filled = out.len().min(count - index);
+                fill(model, index, &mut out[..filled]);
+                return filled;
+            }
+            Self::Integer(_) | Self::IntegerElement(..) => return 0,
+        }
+        1
     }
 }
 
@@ -171,12 +216,21 @@ impl<M> Row<M> {
         unit: Unit,
         nominal: f64,
         what: &str,
-        read: fn(&M, usize) -> f64,
+        read: impl Fn(&M, usize) -> f64 + Send + Sync + 'static,
     ) -> impl Iterator<Item = Self> {
-        (0..count).map(move |index| {
+        let fill: Fill<M> = Arc::new(move |model, first, out: &mut [f64]| {
+            for (index, value) in (first..).zip(out) {
+                *value = read(model, index);
+            }
+        });
+        (0..count as usize).map(move |index| {
             let number = (index + 1).to_string();
             let kind = unbounded(unit, nominal);
-            let read = Some(Read::RealElement(read, index as usize));
+            let read = Some(Read::RealArray {
+                fill: Arc::clone(&fill),
+                index,
+                count: count as usize,
+            });
             let name = format!("{name}[{number}]");
             Self::make(name, what.replace("{}", &number), Causality::Output, kind, read)
         })

@@ -53,7 +53,7 @@ impl<M: Model> Simulation<M> {
     /// The model with start values, not started yet: parameters may be set until [`Simulation::start`].
     pub fn prepare(structure: StructuralParameters) -> Self {
         let rows = M::variables(&structure);
-        let reads = rows.iter().filter_map(|row| row.read).collect();
+        let reads = rows.iter().filter_map(|row| row.read.clone()).collect();
         let table = Table::new(rows.into_iter().map(|Row { variable, .. }| variable).collect());
         Self {
             structure,
@@ -245,10 +245,7 @@ impl<M: Model> Simulation<M> {
     pub fn real(&self, name: &str) -> Result<f64> {
         match self.value(self.position(name)?)? {
             Value::Real(real) => Ok(real),
-            Value::Integer(_) => Err(Error::call(
-                format!("{name} is a whole number"),
-                "Read it as an integer.",
-            )),
+            Value::Integer(_) => Err(whole_number(name)),
         }
     }
 
@@ -275,6 +272,42 @@ impl<M: Model> Simulation<M> {
         match (&self.model, self.reads.get(position - settable.len())) {
             (Some(model), Some(read)) => Ok(read.value(model)),
             _ => Err(self.no_value(position)),
+        }
+    }
+
+    /// Fills `out` with the values of the reals from `first` on, as [`Simulation::value`] gives them: all at once, for arrays.
+    ///
+    /// # Errors
+    /// As [`Simulation::value`]; a whole number among them.
+    pub fn read_reals(&self, first: usize, out: &mut [f64]) -> Result<()> {
+        let settable = self.values.as_slice();
+        let (mut position, mut rest) = (first, out);
+        while !rest.is_empty() {
+            let filled = match (settable.get(position), &self.model) {
+                (Some(Value::Real(real)), _) => {
+                    rest[0] = *real;
+                    1
+                }
+                (None, Some(model)) => {
+                    let read = self.reads.get(position - settable.len());
+                    read.map_or(0, |read| read.fill(model, rest))
+                }
+                _ => 0,
+            };
+            if filled == 0 {
+                return Err(self.no_real(position));
+            }
+            position += filled;
+            rest = &mut rest[filled..];
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn no_real(&self, position: usize) -> Error {
+        match self.value(position) {
+            Ok(_) => whole_number(&self.variables()[position].name),
+            Err(error) => error,
         }
     }
 
@@ -337,6 +370,10 @@ impl<M: Model> Simulation<M> {
         }
         Ok(model)
     }
+}
+
+fn whole_number(name: &str) -> Error {
+    Error::call(format!("{name} is a whole number"), "Read it as an integer.")
 }
 
 fn not_started(what: &str) -> Error {

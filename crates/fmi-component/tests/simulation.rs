@@ -88,10 +88,31 @@ fn a_simulation_is_its_model() {
     let rows = Oscillators::variables(row.structure());
     let read: Vec<_> = rows
         .iter()
-        .filter_map(|row| row.read)
+        .filter_map(|row| row.read.as_ref())
         .map(|read| read.value(&model))
         .collect();
     assert!(row.all_values().unwrap().ends_with(&read));
+}
+
+#[test]
+fn reals_read_at_once_are_those_read_one_by_one() {
+    let mut row = bodies(5);
+    row.advance_to(0.1).unwrap();
+    let all = row.all_values().unwrap();
+    for first in 0..all.len() {
+        for count in 0..=all.len() - first {
+            let mut reals = vec![f64::NAN; count];
+            let read = row.read_reals(first, &mut reals);
+            let wanted = &all[first..first + count];
+            match wanted.iter().find(|value| matches!(value, Value::Integer(_))) {
+                None => assert_eq!(reals.into_iter().map(Value::Real).collect::<Vec<_>>(), wanted),
+                Some(_) => assert!(message_of(read).contains("is a whole number")),
+            }
+        }
+    }
+    assert!(message_of(row.read_reals(all.len() - 1, &mut [0.0; 2])).contains("0 to 16"));
+    row.stop();
+    assert!(message_of(row.read_reals(all.len() - 1, &mut [0.0])).contains("has not started"));
 }
 
 #[test]

@@ -23,7 +23,7 @@ impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
         if entry_a.at_edge {
             separation = self.space.nearest_image(separation);
         }
-        let normal = separation * (1.0 / separation.norm());
+        let normal = separation * (1.0 / separation.norm_squared().sqrt());
         let velocity = a.velocity - b.velocity;
         let spin = |disk: usize| if L::ROTATES { spins[disk].angular_velocity } else { 0.0 };
         let since = |disk: usize| {

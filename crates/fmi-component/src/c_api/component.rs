@@ -30,6 +30,8 @@ pub struct Component {
     pub listener: Option<Listener>,
     /// What it saved.
     pub states: SavedStates,
+    /// Values on their way to the importer.
+    pub reals: Vec<f64>,
 }
 
 /// A call of an importer.
@@ -62,6 +64,7 @@ pub fn instantiate(
                 version,
                 listener,
                 states: SavedStates::default(),
+                reals: Vec::new(),
             };
             return Handle::hand_out(component).cast();
         }

@@ -2,8 +2,8 @@
 
 use super::component::{Component, Entry};
 use super::types::Status;
-use crate::error::{Error, Result};
-use crate::instance::{Access, Instance};
+use crate::error::Result;
+use crate::instance::{Access, Instance, does_not_fit};
 use crate::memory;
 use crate::variable::Value;
 
@@ -26,7 +26,7 @@ pub struct Arrays<T> {
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn get_real(entry: Entry, arrays: Arrays<*mut f64>) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.read(|component| component.get(arrays, Access::Real, real)) }
+    unsafe { entry.read(|component| component.get_reals(arrays)) }
 }
 
 /// `fmi2GetInteger`, `fmi3GetInt32`.
@@ -35,7 +35,7 @@ pub unsafe fn get_real(entry: Entry, arrays: Arrays<*mut f64>) -> Status {
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn get_integer(entry: Entry, arrays: Arrays<*mut i32>, access: Access) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.read(|component| component.get(arrays, access, whole)) }
+    unsafe { entry.read(|component| component.get_whole(arrays, access)) }
 }
 
 /// `fmi3GetInt64`.
@@ -44,7 +44,7 @@ pub unsafe fn get_integer(entry: Entry, arrays: Arrays<*mut i32>, access: Access
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn get_long(entry: Entry, arrays: Arrays<*mut i64>) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.read(|component| component.get(arrays, Access::Long, whole)) }
+    unsafe { entry.read(|component| component.get_whole(arrays, Access::Long)) }
 }
 
 /// `fmi2SetReal`, `fmi3SetFloat64`.
@@ -107,30 +107,50 @@ pub unsafe fn set_input_derivatives(entry: Entry, orders: *const i32, arrays: Ar
 }
 
 impl Component {
-    /// Reads variables into the importer's array.
+    /// Reads variables as reals into the importer's array.
     ///
     /// # Safety
     /// As for [`Arrays`].
     ///
     /// # Errors
     /// Bad pointers, wrong lengths, unknown references, other types, not computed yet.
-    unsafe fn get<T>(
-        &mut self,
-        arrays: Arrays<*mut T>,
-        access: Access,
-        convert: impl Fn(Value) -> Option<T>,
-    ) -> Result<()> {
+    unsafe fn get_reals(&mut self, arrays: Arrays<*mut f64>) -> Result<()> {
+        // SAFETY: by the caller's promise.
+        let (references, mut values) = unsafe { self.request(arrays) }?;
+        self.reals.resize(arrays.length, 0.0);
+        self.instance.get_reals(references, &mut self.reals)?;
+        values.write_all(&self.reals);
+        Ok(())
+    }
+
+    /// Reads variables as whole numbers into the importer's array.
+    ///
+    /// # Safety
+    /// As for [`Arrays`].
+    ///
+    /// # Errors
+    /// As [`Component::get_reals`].
+    unsafe fn get_whole<T: TryFrom<i64>>(&mut self, arrays: Arrays<*mut T>, access: Access) -> Result<()> {
         let read = |instance: &mut Instance, _, reference, offset| {
             let value = instance.element(reference, offset, access)?;
-            convert(value).ok_or_else(|| {
-                Error::call(
-                    format!("value reference {reference} holds {value:?}, which does not fit this type"),
-                    "Read it through FMI 3.0.",
-                )
-            })
+            whole(value).ok_or_else(|| does_not_fit(reference, value))
         };
         // SAFETY: by the caller's promise.
         unsafe { self.fill(arrays, read) }
+    }
+
+    /// The importer's arrays of a getter, of the right lengths.
+    ///
+    /// # Safety
+    /// As for [`Arrays`].
+    unsafe fn request<'a, T>(&self, arrays: Arrays<*mut T>) -> Result<(&'a [u32], memory::Output<T>)> {
+        // SAFETY: by the caller's promise.
+        let references = unsafe { memory::slice(arrays.references, arrays.count, "the array of value references") }?;
+        // SAFETY: by the caller's promise.
+        let values = unsafe { memory::Output::new(arrays.values, arrays.length, "the array of values") }?;
+        let elements = references.iter().map(|reference| self.instance.span(*reference)).sum();
+        memory::check_length(arrays.length, elements, "the array of values")?;
+        Ok((references, values))
     }
 
     /// Fills the importer's array with what `read` gives for each element: number of the reference, reference, offset.
@@ -146,11 +166,7 @@ impl Component {
         read: impl Fn(&mut Instance, usize, u32, usize) -> Result<T>,
     ) -> Result<()> {
         // SAFETY: by the caller's promise.
-        let references = unsafe { memory::slice(arrays.references, arrays.count, "the array of value references") }?;
-        // SAFETY: by the caller's promise.
-        let mut values = unsafe { memory::Output::new(arrays.values, arrays.length, "the array of values") }?;
-        let elements = references.iter().map(|reference| self.instance.span(*reference)).sum();
-        memory::check_length(arrays.length, elements, "the array of values")?;
+        let (references, mut values) = unsafe { self.request(arrays) }?;
         let mut index = 0;
         for (number, reference) in references.iter().enumerate() {
             for offset in 0..self.instance.span(*reference) {
@@ -180,14 +196,6 @@ impl Component {
         // SAFETY: by the caller's promise.
         let values = unsafe { memory::slice(arrays.values, arrays.count, "the array of values") }?;
         self.instance.set(references, access, |index| convert(values[index]))
-    }
-}
-
-/// The real in a value. A count read as a real is that number.
-fn real(value: Value) -> Option<f64> {
-    match value {
-        Value::Real(real) => Some(real),
-        Value::Integer(integer) => i32::try_from(integer).ok().map(f64::from),
     }
 }
 

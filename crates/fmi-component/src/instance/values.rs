@@ -42,6 +42,8 @@ pub(super) struct Slot {
     /// Bit n is set if access number n fits.
     accesses: u8,
     computed: bool,
+    /// Of a [`Kind::Real`].
+    real: bool,
 }
 
 impl Slot {
@@ -59,6 +61,7 @@ impl Slot {
                 .map(|access| u8::from(access.fits(variable)) << *access as u8)
                 .sum(),
             computed: !variable.causality.is_settable(),
+            real: matches!(variable.kind, Kind::Real(_)),
         };
         variables.iter().zip(spans).map(slot).collect()
     }
@@ -95,6 +98,56 @@ impl Instance {
         }
         let position = self.position(reference, access)? + offset;
         self.read(position)
+    }
+
+    /// Reads variables as reals into `out`, which has as many elements as they have. Reals whose references follow one another
+    /// are read in one go.
+    ///
+    /// # Errors
+    /// As [`Instance::get`]; a whole number that does not fit 32 bits.
+    pub fn get_reals(&mut self, references: &[u32], out: &mut [f64]) -> Result<()> {
+        let (mut references, mut out) = (references, out);
+        while let [reference, ..] = *references {
+            let (mut count, mut elements) = self.run_of_reals(references);
+            if count > 0 {
+                let first = reference as usize - 1;
+                self.check_readable(first)?;
+                self.simulation.read_reals(first, &mut out[..elements])?;
+            } else {
+                (count, elements) = (1, self.span(reference));
+                for (offset, real) in out[..elements].iter_mut().enumerate() {
+                    *real = match self.element(reference, offset, Access::Real)? {
+                        Value::Real(real) => real,
+                        Value::Integer(integer) => i32::try_from(integer)
+                            .map_err(|_| does_not_fit(reference, Value::Integer(integer)))?
+                            .into(),
+                    };
+                }
+            }
+            references = &references[count..];
+            out = &mut out[elements..];
+        }
+        Ok(())
+    }
+
+    /// How many of `references`, from the first on, are those of reals beside one another that are all computed or all given,
+    /// and how many elements these have.
+    #[inline]
+    fn run_of_reals(&self, references: &[u32]) -> (usize, usize) {
+        let computed = self.slot(references[0]).is_some_and(|slot| slot.computed);
+        let (mut count, mut next) = (0, references[0] as usize);
+        for reference in references {
+            match self.slot(*reference) {
+                Some(slot)
+                    if *reference as usize == next && slot.real && slot.span > 0 && slot.computed == computed =>
+                {
+                    next += slot.span;
+                }
+                _ => break,
+            }
+            count += 1;
+        }
+        (count, next - references[0] as usize)
     }
 
     /// Rate of change of an output. Of first order, where the model names a variable that is just that (an angle has an
@@ -167,9 +220,15 @@ impl Instance {
         Ok(())
     }
 
-    /// Value at `position`. In initialization mode a model of the values as they stand is built first, if need be.
     #[inline]
     fn read(&mut self, position: usize) -> Result<Value> {
+        self.check_readable(position)?;
+        self.simulation.value(position)
+    }
+
+    /// Whether there is a value at `position`. In initialization mode a model of the values as they stand is built, if need be.
+    #[inline]
+    fn check_readable(&mut self, position: usize) -> Result<()> {
         if self.slots[position].computed {
             match self.phase {
                 Phase::Instantiated => return Err(not_computed(&self.table.variables()[position])),
@@ -178,7 +237,7 @@ impl Instance {
                 _ => {}
             }
         }
-        self.simulation.value(position)
+        Ok(())
     }
 
     fn check_settable(&self, variable: &Variable) -> Result<()> {
@@ -220,6 +279,15 @@ impl Instance {
         };
         Error::call(what, "Take the value references from modelDescription.xml.")
     }
+}
+
+/// Refuses a value read as a type that is too small for it.
+#[cold]
+pub fn does_not_fit(reference: u32, value: Value) -> Error {
+    Error::call(
+        format!("value reference {reference} holds {value:?}, which does not fit this type"),
+        "Read it through FMI 3.0.",
+    )
 }
 
 #[cold]

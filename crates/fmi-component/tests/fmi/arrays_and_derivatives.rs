@@ -5,7 +5,7 @@ use fmi_component::c_api::Status::{Error, Ok};
 use oscillators::fmi2::*;
 use oscillators::fmi3::*;
 
-use crate::client::{Client, MODEL, reference, token_of};
+use crate::client::{Client, MODEL, reference, token_of, variables};
 
 fn arrays() -> Client {
     Client::three_with(&token_of(&MODEL, true), Importer::default())
@@ -42,6 +42,37 @@ fn an_array_holds_the_bits_of_the_scalars() {
     assert!(client.last_message().contains("inside of an array"));
     let bytes = client.bytes(client.save());
     assert_eq!(twin.deserialize(&bytes).0, Error, "an FMU with arrays is another FMU");
+}
+
+/// Parameters, time, counts and elements, in any order and more than once.
+#[test]
+fn variables_read_in_one_call_have_the_bits_of_those_read_one_by_one() {
+    let client = Client::three().ready(&[]);
+    assert_eq!(client.step(0.0, 0.01), Ok);
+    let names = [
+        "body.mass",
+        "frame.position",
+        "steps",
+        "body.position[1]",
+        "body.position[3]",
+    ];
+    let whole = ["start.pattern", "seed"].map(reference);
+    let every = (1..=variables().len() as u32).filter(|reference| !whole.contains(reference));
+    let mut references: Vec<u32> = every.clone().chain([0]).chain(every.rev()).collect();
+    references.extend(names.map(reference));
+    let get = |references: &[u32]| {
+        let mut values = vec![f64::NAN; references.len()];
+        let count = references.len();
+        let status = unsafe { fmi3GetFloat64(client.pointer, references.as_ptr(), count, values.as_mut_ptr(), count) };
+        (status, values)
+    };
+    let (status, values) = get(&references);
+    assert_eq!(status, Ok, "{}", client.last_message());
+    for (reference, value) in references.iter().zip(values) {
+        assert_eq!(get(&[*reference]), (Ok, vec![value]), "reference {reference}");
+    }
+    references.push(whole[1]);
+    assert_eq!(get(&references).0, Error, "the seed is no real");
 }
 
 #[test]

@@ -26,7 +26,7 @@ def binaries(
     """Print the size of each FMU and library, and what it needs; refuse what needs more than it may."""
     if symbols is not None:
         if words := unknown(symbols):
-            raise LabError(f"no symbol in {symbols} holds {words}. Was a module renamed? Correct NOWHERE")
+            raise LabError(f"no symbol in {symbols} holds {words}. Was a module renamed? Correct binaries.py")
         for library in sorted(symbols.glob("libjostle_*.so")):
             if library.stem != "libjostle_c" and (found := strangers(library)):
                 raise LabError(f"{library} holds {len(found)} symbols of other scenes, such as {found[0]}")

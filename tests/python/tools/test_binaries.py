@@ -7,7 +7,7 @@ import pytest
 from conftest import RELEASE, ROOT
 
 from jostle_lab.errors import LabError
-from tools.release.binaries import OLDEST_GLIBC, SYSTEM, needs, scenes, strangers
+from tools.release.binaries import INPUTS, MODULES, OLDEST_GLIBC, SYSTEM, needs, scenes, strangers
 from tools.release.verify import in_a_child
 
 LIBRARIES = sorted(RELEASE.glob("libjostle_*.so"))
@@ -45,6 +45,15 @@ def test_what_ships_runs_on_an_old_system(library: Path):
     found = needs(library)
     assert found.glibc <= OLDEST_GLIBC
     assert found.libraries <= SYSTEM
+
+
+def test_modules_and_types_that_no_library_of_another_scene_may_hold_exist():
+    source = {path: path.read_text() for path in (ROOT / "src").rglob("*.rs")}
+    for name in {*MODULES, INPUTS}:
+        *modules, last = name.split("::")
+        is_type = any(f"pub struct {last}<" in text or f"pub struct {last} " in text for text in source.values())
+        place = ROOT.joinpath("src", *modules, last)
+        assert is_type or place.is_dir() or place.with_suffix(".rs") in source, name
 
 
 def test_a_stripped_library_is_reported():

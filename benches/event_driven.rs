@@ -7,6 +7,7 @@ use cpu_time::ProcessTime;
 use std::f64::consts::PI;
 
 use jostle::collision::{CollisionLaw, Coulomb, Smooth};
+use jostle::engine::Engine;
 use jostle::engine::event_driven::{EventDriven, Model, Periodic, Region, Settings, Walls};
 use jostle::geometry::{Disk, Vector2};
 use rand_pcg::Pcg64;

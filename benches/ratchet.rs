@@ -8,6 +8,7 @@
 
 use cpu_time::ProcessTime;
 use jostle::collision::{Coulomb, VelocityFloor};
+use jostle::engine::Engine;
 use jostle::engine::event_driven::{Counts, EventDriven, Model, Periodic, Region, Settings, Walls};
 use jostle::geometry::{Disk, Vector2};
 use jostle::scene::ratchet::RatchetOnSine;

@@ -78,7 +78,7 @@ fn tangential_restitution_to_ten_digits() {
     assert_eq!(count, 9 * 5 * 9 * 38);
 }
 
-/// Materials and ratios off the grid, wider than it: switches that graze, skins that switch ninety times.
+/// Materials and ratios off the grid, wider than it: switches that graze, tangential springs that switch ninety times.
 fn scan_random_impacts(materials: u32, seed: u64) {
     let mut state = seed;
     let mut between = |low: f64, high: f64| {

@@ -8,7 +8,6 @@ mod raw_three_disk;
 use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
 use jostle::drive::excitation::{Excitation, HarmonicTorque, HeldTorque, SineSupports, SupportMotion};
-use jostle::engine::Engine;
 use jostle::engine::disk_on_two_supports::{
     DiskOnTwoSupports, ENERGY_INPUT, ENERGY_LOST, SupportFrame, TimeStepLimits, TwoSupportsRig, TwoSupportsSetup,
     equilibrium,
@@ -279,8 +278,8 @@ fn stuck_modes_are_those_of_the_linear_equations() {
 }
 
 fn energy<E: Excitation>(disk: &DiskOnTwoSupports<E>) -> f64 {
-    let (setup, now, look) = (disk.setup(), disk.state().now.disk, disk.observe());
-    let elastic: f64 = look
+    let (setup, now, observed) = (disk.setup(), disk.state().now.disk, disk.observe());
+    let elastic: f64 = observed
         .contacts
         .iter()
         .map(|at| setup.normal.energy(at.overlap.max(0.0)) + setup.tangential.energy(at.stretch))

@@ -5,7 +5,6 @@
 use std::f64::consts::FRAC_PI_6;
 
 use jostle::drive::excitation::{HarmonicTorque, HeldTorque, RandomSupports, SineSupports};
-use jostle::engine::Engine;
 use jostle::scene::disk_on_two_supports::{
     DiskOnTwoSupportsDrive, DiskOnTwoSupportsOnHarmonicTorque, DiskOnTwoSupportsOnInput,
     DiskOnTwoSupportsOnRandomSupports, DiskOnTwoSupportsOnSine, DiskOnTwoSupportsScene,

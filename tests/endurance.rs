@@ -1,4 +1,4 @@
-//! A process that goes on and on: libraries loaded and unloaded, many instances at once, runs of a billion events, and
+//! A long-lived process: libraries loaded and unloaded, many instances at once, runs of a billion events, and
 //! memory that does not grow.
 //!
 //! One test a process: run each alone when its figures matter, since all share the resident size.
@@ -106,7 +106,7 @@ fn token_of(model: &ModelType, chosen: &[(&str, u32)]) -> CString {
     CString::new(token::write(&info, &structure, &(model.variables)(&structure), false)).unwrap()
 }
 
-/// Loads and unloads 2000 times, with `life` in between, and looks at memory.
+/// Loads and unloads 2000 times, with `life` in between, and measures the memory.
 fn load_two_thousand_times(path: &Path, life: impl Fn(&Fmu, u32)) {
     let mut settled = 0;
     for cycle in 0..2000 {
@@ -126,7 +126,7 @@ fn load_two_thousand_times(path: &Path, life: impl Fn(&Fmu, u32)) {
 /// Oscillators, every hundredth time into a panic.
 #[test]
 fn two_thousand_loads_leave_memory_as_it_was() {
-    // The loaded library tells its panics; looking up where they come from would keep memory.
+    // The loaded library reports its panics; a backtrace of each would keep memory.
     unsafe { std::env::set_var("RUST_BACKTRACE", "0") };
     let path = std::env::current_exe().unwrap().with_file_name("liboscillators.so");
     let model = ModelType::of::<Oscillators>();

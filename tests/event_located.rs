@@ -5,36 +5,13 @@
 
 mod support;
 
-use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::{FollowsInput, Sine};
 use jostle::engine::Engine;
 use jostle::engine::dem::{ContactLaws, EventLocated, SoftDiskSetup, TimeStepLimits, Verlet};
 use jostle::geometry::{Disk, Wall};
 use support::order;
 use support::reference_impact::Impact;
-
-const RADIUS: f64 = 0.02;
-
-fn laws(normal_damping: f64, ratio: f64, friction: f64) -> ContactLaws {
-    ContactLaws {
-        normal: LinearDashpot {
-            stiffness: 1e4,
-            damping: normal_damping,
-        },
-        tangential: TangentialSpring {
-            stiffness: ratio * 1e4,
-            friction,
-        },
-    }
-}
-
-fn mass(radius: f64) -> f64 {
-    3.57 * std::f64::consts::PI * radius * radius
-}
-
-fn at_rest() -> FollowsInput {
-    FollowsInput::uniform(0.0, 0.0, 0.0)
-}
+use support::soft_disks::{RADIUS, at_rest, laws, mass};
 
 fn disk(x: f64, y: f64, radius: f64) -> Disk {
     Disk { x, y, radius }
@@ -202,7 +179,7 @@ fn free_collisions_keep_momentum_and_angular_momentum() {
     assert!(order > 3.5 && errors[3] < 1e-10, "{errors:?}, order {order}");
 }
 
-/// y = -g t^2 / 2, whatever the grid and wherever one looks; and a disk at rest on a plane stays there.
+/// y = -g t^2 / 2, whatever the grid and the sampling times; and a disk at rest on a plane stays there.
 #[test]
 fn free_fall_and_rest_are_exact() {
     let setup = |walls: Vec<Wall>| SoftDiskSetup {
@@ -214,11 +191,11 @@ fn free_fall_and_rest_are_exact() {
         start_time: 5.0,
     };
     let mut falling = EventLocated::new(setup(Vec::new()), &[disk(0.0, 0.0, RADIUS)], at_rest());
-    for look in [0.01234, 0.3, 0.98765] {
-        falling.advance_to(5.0 + look).unwrap();
+    for sampled in [0.01234, 0.3, 0.98765] {
+        falling.advance_to(5.0 + sampled).unwrap();
         let (place, rate) = (falling.now().disks.positions[0], falling.now().disks.velocities[0]);
-        assert!((place[1] + 0.5 * 9.8 * look * look).abs() < 1e-14, "{look}");
-        assert!((rate[1] + 9.8 * look).abs() < 1e-13);
+        assert!((place[1] + 0.5 * 9.8 * sampled * sampled).abs() < 1e-14, "{sampled}");
+        assert!((rate[1] + 9.8 * sampled).abs() < 1e-13);
     }
     let height = RADIUS - mass(RADIUS) * 9.8 / 1e4;
     let mut resting = EventLocated::new(

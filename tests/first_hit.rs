@@ -186,15 +186,18 @@ fn cubic_case(random: &mut Uniform) -> (Case<FollowsInput>, f64) {
     };
     let pull = 9.81 * normal_up;
     let since = step * random.between(0.0, 0.5);
-    let reach = speed * step;
+    let distance = speed * step;
     let mut grazes_after = 0.0;
     let (gap, velocity) = match random.next() {
-        p if p < 0.4 => (random.logarithmic(1e-6, 3.0) * reach, random.between(-1.0, 1.0) * speed),
+        p if p < 0.4 => (
+            random.logarithmic(1e-6, 3.0) * distance,
+            random.between(-1.0, 1.0) * speed,
+        ),
         p if p < 0.6 => (0.0, random.logarithmic(1e-9, 1.0) * speed),
         _ => {
             let delay = step * random.between(0.01, 0.5);
             let (now, then) = (base.motion(start + since), base.motion(start + since + delay));
-            let departure = reach * random.between(-1.0, 1.0).signum() * random.logarithmic(1e-16, 1e-2);
+            let departure = distance * random.between(-1.0, 1.0).signum() * random.logarithmic(1e-16, 1e-2);
             grazes_after = delay;
             let velocity = normal_up * (then.velocity - now.velocity) + pull * delay;
             let moved = normal_up * (then.displacement - now.displacement - now.velocity * delay);

@@ -46,7 +46,7 @@ fn simulation(names: &Names, factor: f64) -> Result<AnySimulation, Error> {
 }
 
 /// Base of y = A (1 - cos(omega t)), or a torque of B sin(omega t), given as inputs.
-fn aim(simulation: &mut AnySimulation, factor: f64) {
+fn set_target(simulation: &mut AnySimulation, factor: f64) {
     let (omega, phase) = (TAU * FREQUENCY, TAU * FREQUENCY * simulation.time());
     let inputs = [
         ("base.displacement", factor * AMPLITUDE * (1.0 - phase.cos())),
@@ -74,7 +74,7 @@ fn step(simulation: &mut AnySimulation, duration: f64) -> Result<(), Error> {
 
 fn walk(simulation: &mut AnySimulation, steps: u32, factor: f64) -> Result<(), Error> {
     for _ in 0..steps {
-        aim(simulation, factor);
+        set_target(simulation, factor);
         step(simulation, STEP)?;
     }
     Ok(())
@@ -147,7 +147,7 @@ fn answer(names: &Names, case: &str) -> &'static str {
     if !times_1000 {
         walk(&mut simulation, 100, 1.0).unwrap_or_else(|error| panic!("{what}: {error}"));
     }
-    aim(&mut simulation, 1.0);
+    set_target(&mut simulation, 1.0);
     let (sane, time) = (simulation.to_bytes().unwrap(), simulation.time());
     let outcome = match case {
         "jump of the base" => {

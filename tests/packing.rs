@@ -6,14 +6,14 @@ use jostle::geometry::Disk;
 use jostle::packing::{RadiusClass, RadiusDistribution, advancing_front, mirrored};
 use proptest::prelude::*;
 
-/// Distance between two rims, negative where the disks overlap.
+/// Distance between two surfaces, negative where the disks overlap.
 fn gap(a: &Disk, b: &Disk) -> f64 {
     (a.x - b.x).hypot(a.y - b.y) - (a.radius + b.radius)
 }
 
 /// 1e-12 of the contact distance and the rounding of the coordinates, as documented.
-fn tolerance(reach: f64, disk: &Disk) -> f64 {
-    1.01e-12 * reach + 8.0 * f64::EPSILON * (disk.x.abs() + disk.y.abs())
+fn tolerance(radius_sum: f64, disk: &Disk) -> f64 {
+    1.01e-12 * radius_sum + 8.0 * f64::EPSILON * (disk.x.abs() + disk.y.abs())
 }
 
 /// No overlap with anything ever placed, two touches or more with what was there before, supports on both sides.
@@ -26,10 +26,13 @@ fn check(disks: &[Disk], width: f64) -> Result<(), String> {
         ];
         let neighbours = disks[..index].iter().map(|other| (gap(disk, other), other));
         let (mut touches, mut left, mut right) = (0, false, false);
-        let mut contact = |gap: f64, reach: f64, toward: f64| {
-            let slack = tolerance(reach, disk);
+        let mut contact = |gap: f64, radius_sum: f64, toward: f64| {
+            let slack = tolerance(radius_sum, disk);
             if gap < -slack {
-                return Err(format!("disk {index} overlaps by {:e} of {reach}", -gap / reach));
+                return Err(format!(
+                    "disk {index} overlaps by {:e} of {radius_sum}",
+                    -gap / radius_sum
+                ));
             }
             if gap <= slack {
                 touches += 1;

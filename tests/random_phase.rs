@@ -132,7 +132,7 @@ fn slow_disks_meet_the_base_at_its_top() {
     assert!(samples(0.0, 5).iter().all(|v| *v == 0.0));
 }
 
-/// On a slope n_y scales the wall's reach; under a ceiling the base comes down.
+/// On a slope n_y scales the wall's amplitude; under a ceiling the base comes down.
 #[test]
 fn the_random_phase_holds_for_tilted_walls_and_ceilings() {
     let base = RandomPhase { peak_velocity: 0.3 };
@@ -144,7 +144,7 @@ fn the_random_phase_holds_for_tilted_walls_and_ceilings() {
     assert_eq!(draw(base, -0.1, 0.0), 0.0);
 }
 
-/// Every draw lets the disk leave, equal seeds give equal draws, and what never leaves is told.
+/// Every draw lets the disk leave, equal seeds give equal draws, and a disk that never leaves is reported.
 #[test]
 fn draws_again_until_the_disk_leaves() {
     let base = RandomPhase { peak_velocity: 1.0 };

@@ -4,7 +4,6 @@
 
 mod support;
 
-use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::{FollowsInput, Sine};
 use jostle::engine::Engine;
 use jostle::engine::dem::verlet::{Gear5, Integrator, PredictorCorrector, VelocityVerlet};
@@ -12,29 +11,7 @@ use jostle::engine::dem::{ContactLaws, FixedGrid, SoftDiskSetup, Verlet};
 use jostle::geometry::{Disk, Wall};
 use support::order;
 use support::reference_impact::Impact;
-
-const RADIUS: f64 = 0.02;
-
-fn laws(normal_damping: f64, ratio: f64, friction: f64) -> ContactLaws {
-    ContactLaws {
-        normal: LinearDashpot {
-            stiffness: 1e4,
-            damping: normal_damping,
-        },
-        tangential: TangentialSpring {
-            stiffness: ratio * 1e4,
-            friction,
-        },
-    }
-}
-
-fn mass(radius: f64) -> f64 {
-    3.57 * std::f64::consts::PI * radius * radius
-}
-
-fn at_rest() -> FollowsInput {
-    FollowsInput::uniform(0.0, 0.0, 0.0)
-}
+use support::soft_disks::{RADIUS, at_rest, laws, mass};
 
 /// A disk thrown at the floor, without gravity. The touch falls at the fraction `phase` of a time step.
 fn impact<I: Integrator>(laws: ContactLaws, velocity: [f64; 3], time_step: f64, phase: f64) -> [f64; 3] {
@@ -226,7 +203,7 @@ fn free_collisions_keep_momentum_and_angular_momentum() {
     assert!(free_collision::<Gear5>() < 1e-9);
 }
 
-/// Free fall is exact: y = -g t^2 / 2, whatever the grid and wherever one looks.
+/// Free fall is exact: y = -g t^2 / 2, whatever the grid and the sampling times.
 #[test]
 fn free_fall_is_exact() {
     let setup = SoftDiskSetup {
@@ -243,13 +220,13 @@ fn free_fall_is_exact() {
         radius: RADIUS,
     };
     let mut engine = Verlet::new(setup, &[disk], at_rest());
-    for look in [0.01234, 0.3, 0.98765] {
-        engine.advance_to(5.0 + look).unwrap();
+    for sampled in [0.01234, 0.3, 0.98765] {
+        engine.advance_to(5.0 + sampled).unwrap();
         assert!(
-            (engine.observables().positions[0][1] + 0.5 * 9.8 * look * look).abs() < 1e-13,
-            "{look}"
+            (engine.observables().positions[0][1] + 0.5 * 9.8 * sampled * sampled).abs() < 1e-13,
+            "{sampled}"
         );
-        assert!((engine.observables().velocities[0][1] + 9.8 * look).abs() < 1e-12);
+        assert!((engine.observables().velocities[0][1] + 9.8 * sampled).abs() < 1e-12);
     }
 }
 

@@ -141,7 +141,7 @@ fn energy_and_reaction_are_accounted_for() {
     bookkeeping::<WedgeMolecularDynamicsOnSine>(2e-2);
 }
 
-/// Without tilt there is no rotation; with it there is, and the other way with the other tilt.
+/// Without tilt there is no rotation; with it there is, and in the opposite sense with the opposite tilt.
 fn symmetric<M: Model>(seconds: f64) {
     let at = |tilt: f64| {
         let mut wedge = wedge::<M>(&[("wedge.tilt", tilt), ("measure.start", 1.0)]);
@@ -242,7 +242,7 @@ fn what_confines_nothing_is_refused_by_name() {
 }
 
 /// Weakly bouncing disks: the map never piles impacts up; the moving wedge ends them at the floor and says how many, and
-/// without a floor it is told where and when, and the state is that before the step.
+/// without a floor place and time are reported, and the state is that before the step.
 #[test]
 fn chatter_ends_or_is_reported() {
     let mut map = wedge::<WedgeMap>(&[("collision.restitution", 0.05)]);
@@ -270,7 +270,7 @@ fn chatter_ends_or_is_reported() {
     bare.advance_to(2e-3).unwrap();
 }
 
-/// Work counts, pinned within the time that trajectories can be foretold: a change shows in the diff.
+/// Work counts, pinned within the time that trajectories can be predicted: a change shows in the diff.
 #[test]
 fn collision_counts_of_the_first_quarter_second_are_pinned() {
     fn counted<M: Model>() -> i64 {

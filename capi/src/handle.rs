@@ -1,4 +1,4 @@
-//! What a simulation's pointer points to, and the way in and out of every call.
+//! What a simulation's pointer points to, and how every call enters and leaves it.
 
 use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -42,7 +42,7 @@ pub struct Inner {
     pub simulation: AnySimulation,
     /// The texts of its variables, made when they are first asked for.
     pub texts: Option<VariableTexts>,
-    /// A panic has shown a defect: what the scene holds may be in pieces.
+    /// A panic has shown a defect: what the scene holds may be inconsistent.
     pub failed: bool,
     error: String,
 }
@@ -78,7 +78,7 @@ pub unsafe fn free(pointer: *mut JostleSimulation) {
     let _ = unsafe { Held::free(pointer.cast(), |_| true) };
 }
 
-/// The way into a simulation: checks the pointer, keeps others out, catches panics, keeps the text of what went wrong.
+/// Enters a simulation: checks the pointer, locks it, catches panics, keeps the text of what went wrong.
 ///
 /// # Safety
 /// `pointer` is null or a simulation that was not freed.

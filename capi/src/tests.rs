@@ -10,7 +10,7 @@ use oscillators::Oscillators;
 use crate::JostleStatus::{Busy, Error, Failed, NoSimulation, Ok, StepRefused};
 use crate::*;
 
-/// Oscillators that panic or refuse when told to.
+/// Oscillators that panic or refuse when set to.
 fn probe(given: &[(&str, f64)]) -> *mut JostleSimulation {
     let given: Vec<_> = given.iter().map(|&(name, value)| (name, value.into())).collect();
     handle::hand_out(AnySimulation::from(

@@ -1,5 +1,5 @@
-//! C programs against the header and the library: compiled with every warning an error, linked both ways, run, and looked
-//! at by valgrind where that is installed.
+//! C programs against the header and the library: compiled with every warning an error, linked statically and
+//! dynamically, run, and checked by valgrind where that is installed.
 #![allow(clippy::unwrap_used)]
 
 use std::path::{Path, PathBuf};

@@ -160,15 +160,15 @@ unsafe fn listen(environment: *mut c_void, category: *const c_char, message: *co
 /// What a callback calls back.
 type CallBack = unsafe fn(&Slot) -> Status;
 
-/// What an intermediate update does with an instance and the time that it was told.
+/// What an intermediate update does with an instance and the reported time.
 type LookInside = unsafe fn(&Slot, f64);
 
 thread_local! {
     pub static CALL_BACK: Cell<Option<CallBack>> = const { Cell::new(None) };
-    pub static LOOK_INSIDE: Cell<Option<LookInside>> = const { Cell::new(None) };
+    pub static OBSERVE_INSIDE: Cell<Option<LookInside>> = const { Cell::new(None) };
 }
 
-/// Looks at an event inside of a step, and may want to end the step, at odd times too.
+/// Observes an event inside of a step, and may want to end the step, at odd times too.
 pub unsafe extern "C" fn update3(
     environment: *mut c_void,
     time: f64,
@@ -183,10 +183,10 @@ pub unsafe extern "C" fn update3(
     let (slot, wanted, until) = unsafe { (&*environment.cast::<Slot>(), &mut *wanted, &mut *until) };
     assert_eq!((set, get, finished, *wanted, *until), (0, 1, 1, 0, time));
     assert!(time.is_finite() && early <= 1);
-    LOOK_INSIDE.with(|look| {
-        if let Some(look) = look.get() {
+    OBSERVE_INSIDE.with(|observe| {
+        if let Some(observe) = observe.get() {
             // SAFETY: the instance is alive, since it calls.
-            unsafe { look(slot, time) };
+            unsafe { observe(slot, time) };
         }
     });
     let odd = [

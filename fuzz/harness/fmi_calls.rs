@@ -3,12 +3,12 @@
 
 use std::sync::LazyLock;
 
-use super::fmi::{CALL_BACK, Importer, LOOK_INSIDE, Subject, check};
+use super::fmi::{CALL_BACK, Importer, OBSERVE_INSIDE, Subject, check};
 use super::hand::*;
 use super::library::fmi2::*;
 use super::library::fmi3::*;
 use super::library::{LONGEST_STEP, Opaque, Status, tokens};
-use super::lives::{LIVES, begin, call_back, look_inside, release};
+use super::lives::{LIVES, begin, call_back, observe_inside, release};
 
 /// An argument of a call.
 trait Role {
@@ -193,7 +193,7 @@ pub fn run(bytes: &[u8]) {
         Subject::new(&tokens, variables)
     });
     CALL_BACK.set(Some(call_back));
-    LOOK_INSIDE.set(Some(look_inside));
+    OBSERVE_INSIDE.set(Some(observe_inside));
     let mut importer = Importer::new(bytes, &SUBJECT, LONGEST_STEP);
     begin(&mut importer);
     while !importer.hand.is_empty() {

@@ -32,7 +32,7 @@ pub fn count_step(done: bool) {
     STEPS.fetch_add(u64::from(done), Ordering::Relaxed);
 }
 
-/// Panics that a model was told to do are none to report; any other ends the process, though the boundary catches it.
+/// Panics that a model was set to do are not reported; any other ends the process, though the boundary catches it.
 pub fn report_defects() {
     static ONCE: std::sync::Once = std::sync::Once::new();
     ONCE.call_once(|| {

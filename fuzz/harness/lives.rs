@@ -11,7 +11,7 @@ use super::library::{IntermediateUpdate, Opaque, Status};
 
 type Call = fn(&mut Importer);
 
-/// Variables to be told in intermediate updates.
+/// Variables to be reported in intermediate updates.
 const REQUIRED: [u32; 1] = [1];
 
 /// Calls that must come in an order to get anywhere, more often than each single one.
@@ -48,7 +48,7 @@ pub unsafe fn call_back(slot: &Slot) -> Status {
 }
 
 /// From inside an intermediate update: values may be read, anything else is refused.
-pub unsafe fn look_inside(slot: &Slot, time: f64) {
+pub unsafe fn observe_inside(slot: &Slot, time: f64) {
     let pointer = slot.pointer.get();
     let (mut value, mut state, mut flags) = (f64::NAN, null_mut(), [0_u8; 3]);
     let [event, terminate, early] = &mut flags;
@@ -119,7 +119,7 @@ fn instantiate(importer: &mut Importer) {
     } else {
         c"name".as_ptr()
     };
-    // One bit of each says yes or no; the others say whether the instance tells of events, and what is done then.
+    // One bit of each says yes or no; the others say whether the instance reports events, and what is done then.
     let [logs, events, early] = [(); 3].map(|()| importer.hand.byte());
     let wanted = usize::from(importer.hand.rarely(16));
     let references = if early & 2 == 0 { null() } else { REQUIRED.as_ptr() };
@@ -205,7 +205,7 @@ fn initialize(importer: &mut Importer) {
     }
 }
 
-/// Steps on from where an instance is, through event mode if there was an event. (FMI 2.0 tells the time by the independent variable as well.)
+/// Steps on from where an instance is, through event mode if there was an event. (FMI 2.0 reports the time by the independent variable as well.)
 fn walk(importer: &mut Importer) {
     let (slot, step) = (importer.live_slot(), importer.step());
     let (pointer, three) = (importer.slots[slot].pointer.get(), importer.slots[slot].three.get());

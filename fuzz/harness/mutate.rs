@@ -1,7 +1,7 @@
 //! How new inputs are made: libFuzzer changes an old one, or now and then all bytes are drawn afresh.
 //!
 //! What libFuzzer keeps is near to what it has kept before. Lives of an instance that need many arguments to be right at
-//! once, each no news to the coverage by itself, come sooner by plain chance.
+//! once, none of which adds coverage by itself, are found sooner by chance.
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;

@@ -1,4 +1,4 @@
-//! Both versions of FMI with the oscillators, which refuse and panic when told to.
+//! Both versions of FMI with the oscillators, which refuse and panic when set to.
 #![no_main]
 
 #[path = "../harness/fmi.rs"]

@@ -56,7 +56,7 @@ pub struct Impulse {
 /// An impulse law.
 ///
 /// It is the duty of the caller that the bodies approach (`u_n <= 0`): the laws take `|u_n|`.
-pub trait CollisionLaw {
+pub trait CollisionLaw: Send + 'static {
     /// Whether there is friction, and with it spin. Without it, the tangential impulse is zero.
     const ROTATES: bool;
     /// Whether the engine must keep the time of each body's last impact.
@@ -94,7 +94,7 @@ impl Impact {
 
 /// Effective mass \[kg\] of two bodies by their inverse masses \[1/kg\], of which a wall's is zero.
 ///
-/// Equal bits whichever body comes first.
+/// The bits do not depend on the order of the bodies.
 #[inline]
 pub fn effective_mass(first_inverse_mass: f64, second_inverse_mass: f64) -> f64 {
     1.0 / (first_inverse_mass + second_inverse_mass)

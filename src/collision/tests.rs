@@ -48,7 +48,7 @@ fn apply(body: &mut Body, sign: f64, n: Vector2<f64>, impulse: Impulse) {
         return;
     }
     body.velocity += sign * (impulse.normal * n + impulse.tangential * clockwise(&n)) / body.mass;
-    // The rim at the contact turns the same way on both bodies.
+    // The surfaces at the contact turn in the same sense on both bodies.
     body.spin += body.radius * impulse.tangential / body.inertia;
 }
 

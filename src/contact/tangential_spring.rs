@@ -1,6 +1,6 @@
 //! Tangential force of a spring that slips at the limit of Coulomb friction (P 4.2.2, after Cundall and Strack 1979).
 
-/// Tangential spring of stiffness k_t (P calls it the elastic skin of the disks) with Coulomb's limit.
+/// Tangential spring of stiffness k_t (Cundall and Strack; P calls it the elastic skin of the disks) with Coulomb's limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TangentialSpring {
     /// Tangential stiffness k_t \[N/m\].

@@ -8,7 +8,7 @@
 //! ```text
 //! sin(tau_A) (1 - cos delta) + m (delta - sin delta) + (x - m) delta = 2 pi x U,   m = min(x, 1), U even in (0, 1)
 //! ```
-//! whose left side grows all the way to `2 tau_A`, so that there is one root and it is the visible one. This is exact:
+//! whose left side grows up to `2 tau_A`, so that there is one root and it is the visible one. This is exact:
 //! no fit as in P 2.41, and the base is met at its top, with velocity zero, as v_n goes to zero.
 
 use std::f64::consts::{PI, TAU};

@@ -18,11 +18,6 @@ pub struct Sine {
 }
 
 impl Sine {
-    /// Peak acceleration over gravity, `Gamma = A (2 pi f)^2 / g` (P 2.2).
-    pub fn dimensionless_acceleration(&self, gravity: f64) -> f64 {
-        self.amplitude * (TAU * self.frequency).powi(2) / gravity
-    }
-
     /// Amplitude \[m\] that gives the dimensionless acceleration `gamma`.
     pub fn amplitude_of(gamma: f64, frequency: f64, gravity: f64) -> f64 {
         gamma * gravity / (TAU * frequency).powi(2)

@@ -25,7 +25,8 @@ pub trait Engine: Sized + Send + 'static {
     /// Advances to `end_time` \[s\] and takes the work that it costs off `budget`.
     ///
     /// # Errors
-    /// The engine cannot go on, or the budget is too small. Nothing has changed then but the budget.
+    /// The engine cannot go on, or the budget is too small. Unless the engine says that nothing has changed then, its state is
+    /// of no use until one is restored.
     fn advance_within(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<(), Self::Stop>;
 
     /// Advances to `end_time` \[s\] within the default budget.
@@ -36,8 +37,8 @@ pub trait Engine: Sized + Send + 'static {
         self.advance_within(end_time, &mut WorkBudget::default())
     }
 
-    /// All that the future depends on.
-    fn state(&self) -> &Self::State;
+    /// A copy of all that the future depends on.
+    fn copied_state(&self) -> Self::State;
 
     /// Whether `state`, observed at `time` \[s\], can be one of this run.
     fn fits(&self, state: &Self::State, time: f64) -> bool;

@@ -6,7 +6,7 @@
 //! call that would take more is refused and leaves the state unchanged; several shorter communication steps do the same
 //! with the same bits. The budget counts operations, not time, so that every machine refuses the same calls.
 
-/// Budget of a call if nobody asks for less: some ten minutes to half an hour.
+/// Default budget of a call: some ten minutes to half an hour.
 pub const MOST_WORK_IN_A_CALL: u64 = 2_000_000_000;
 
 /// The work that one call may still do.

@@ -54,26 +54,7 @@ impl SawtoothProfile {
     /// # Errors
     /// A shape that does not exist, by the names `tooth.width`, `tooth.height`, `tooth.asymmetry`, `tooth.tip_radius`.
     pub fn new(width: f64, height: f64, asymmetry: f64, tip_radius: f64) -> Result<Self> {
-        check(
-            "tooth.width",
-            width,
-            f64::MIN_POSITIVE..=f64::MAX,
-            "a finite length above 0 m",
-        )?;
-        check(
-            "tooth.height",
-            height,
-            0.0..=f64::MAX,
-            "a finite length from 0 m, which is flat",
-        )?;
-        let vertical = "from 0, a vertical left side, to 1, a vertical right side";
-        check("tooth.asymmetry", asymmetry, 0.0..=1.0, vertical)?;
-        check(
-            "tooth.tip_radius",
-            tip_radius,
-            0.0..=f64::MAX,
-            "a finite length from 0 m, which is sharp",
-        )?;
+        check_shape(width, height, asymmetry, tip_radius)?;
         let (left, right) = (asymmetry * width, (1.0 - asymmetry) * width);
         if height == 0.0 {
             let side = |sign: f64| Side {
@@ -164,6 +145,30 @@ impl SawtoothProfile {
             normal: from / distance,
         }
     }
+}
+
+/// Refuses a dimension that no tooth has, by its name.
+fn check_shape(width: f64, height: f64, asymmetry: f64, tip_radius: f64) -> Result<()> {
+    check(
+        "tooth.width",
+        width,
+        f64::MIN_POSITIVE..=f64::MAX,
+        "a finite length above 0 m",
+    )?;
+    check(
+        "tooth.height",
+        height,
+        0.0..=f64::MAX,
+        "a finite length from 0 m, which is flat",
+    )?;
+    let vertical = "from 0, a vertical left side, to 1, a vertical right side";
+    check("tooth.asymmetry", asymmetry, 0.0..=1.0, vertical)?;
+    check(
+        "tooth.tip_radius",
+        tip_radius,
+        0.0..=f64::MAX,
+        "a finite length from 0 m, which is sharp",
+    )
 }
 
 fn check(name: &str, value: f64, range: RangeInclusive<f64>, allowed: &str) -> Result<()> {

@@ -9,7 +9,7 @@ use nalgebra::Vector2;
 /// Free flight of a disk towards a wall, along the wall's normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flight {
-    /// Distance between the disk's rim and the wall \[m\]. Set it to zero after an impact on this wall: a remainder of
+    /// Distance between the disk's surface and the wall \[m\]. Set it to zero after an impact on this wall: a remainder of
     /// rounding would be carried from bounce to bounce.
     pub gap: f64,
     /// Rate of the gap now \[m/s\], negative on approach.
@@ -45,7 +45,7 @@ pub fn disk_disk(position: Vector2<f64>, velocity: Vector2<f64>, distance: f64) 
 
 /// Time \[s\] until a disk meets a wall at rest, or infinity.
 ///
-/// First t >= 0 with `gap + velocity t - pull t^2 / 2 = 0` on the way down. A disk at the wall that moves off, or lies
+/// First t >= 0 with `gap + velocity t - pull t^2 / 2 = 0` with a decreasing gap. A disk at the wall that moves off, or lies
 /// at rest, meets it again when the pull brings it back: after `2 velocity / pull`. Towards a ceiling the disk may turn
 /// back first. Source: P 2.36 with a zero velocity in the second branch, F B10 to B13.
 #[inline]

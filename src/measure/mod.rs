@@ -1,4 +1,4 @@
-//! Read-only observables: what a run shows in, numbers with their errors out. Nothing here changes what it looks at.
+//! Read-only observables: observations of a run in, numbers with their errors out. Nothing here changes what it observes.
 
 mod batch_means;
 pub mod disk_on_two_supports;

@@ -1,4 +1,4 @@
-//! The disks of the front by position: "who is near x?" without looking at the rest.
+//! The disks of the front by position: finds the disks near x without going through the rest.
 //!
 //! Upright columns suffice, since the front is thin. Each octave of radii has columns of its own width, so that a few
 //! large disks do not make every search as wide as they are.
@@ -62,7 +62,7 @@ impl Columns {
         }
     }
 
-    /// True if `wanted` holds for some disk whose rim may come within a distance \[m\] of `x`.
+    /// True if `wanted` holds for some disk whose surface may be within a distance \[m\] of `x`.
     pub(super) fn any_near(&self, x: f64, distance: f64, mut wanted: impl FnMut(u32) -> bool) -> bool {
         self.levels.iter().any(|level| {
             let span = distance + level.largest;

@@ -171,7 +171,7 @@ impl Front {
     /// True if the chain from the left to the right support passes below the place.
     ///
     /// The polygon place, left, ..., right, place does not cross itself, because its sides run inside disks that do not
-    /// overlap; so the sign of its area tells. A right support before the left one in the chain lies behind the front.
+    /// overlap; so the sign of its area decides. A right support before the left one in the chain lies behind the front.
     fn is_above(&self, place: &Place, radius: f64) -> bool {
         let mut outline = Outline::at(place, self.half_width);
         let (mut ahead, mut behind) = (place.left, place.left);
@@ -228,7 +228,7 @@ impl Front {
     }
 }
 
-/// Twice the signed area of a polygon, seen from the place so that nothing cancels.
+/// Twice the signed area of a polygon, relative to the place, so that no digits cancel.
 struct Outline {
     place: Vector2<f64>,
     half_width: f64,

@@ -200,7 +200,7 @@ impl AnySimulation {
         self.0.restore_bytes(bytes)
     }
 
-    /// As [`AnySimulation::restore_bytes`], with the scene made anew: for one that a panic may have left in pieces.
+    /// As [`AnySimulation::restore_bytes`], with the scene made anew: for one that a panic may have left inconsistent.
     ///
     /// # Errors
     /// As [`AnySimulation::restore_bytes`].

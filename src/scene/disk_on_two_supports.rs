@@ -51,7 +51,7 @@ pub struct DiskOnTwoSupportsScene<E> {
     report: DiskOnTwoSupportsReport,
 }
 
-/// Where the communication step began that is under way or was last. No part of the state: no step is under way when one is
+/// Where the present or the last communication step began. No part of the state: no step is under way when one is
 /// saved.
 #[derive(Debug, Clone, Copy)]
 struct Begun {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::drive::{Drive, FollowsInput, Sine};
 use crate::engine::DiskMotion;
-use crate::engine::event_driven::{Counts, Moving, VibratingBase};
+use crate::engine::event_driven::{Counts, EventDrivenStop, Moving, Partner, VibratingBase};
 use crate::error::are_sane;
 
 use super::base_drive::BaseDrive;
@@ -55,6 +55,36 @@ impl HardBase for Moving<FollowsInput> {
         BaseDrive::set_target(&mut self.drive, time, duration, values);
         self.farthest = self.drive.highest();
         true
+    }
+}
+
+/// The refusal of a step that an event-driven engine could not finish; `partner` names walls and the edge of a shell.
+pub fn refused_step(
+    scene: &'static str,
+    stop: EventDrivenStop,
+    partner: impl FnOnce(Partner) -> &'static str,
+    remedy: &str,
+) -> Error {
+    let stop = match stop {
+        EventDrivenStop::NoHeadway(stop) => stop,
+        EventDrivenStop::TooManyEvents { time, most } => {
+            return Error::too_much_work(scene, time, format!("more than {most} events"));
+        }
+    };
+    let partner = match stop.partner {
+        Partner::Disk(other) => format!("disk {}", other + 1),
+        wall_or_shell => partner(wall_or_shell).into(),
+    };
+    Error::Step {
+        model: scene,
+        time: stop.time,
+        what: format!(
+            "no headway: {} events in {:e} s, the last of disk {} with {partner}",
+            stop.events,
+            stop.duration,
+            stop.disk + 1
+        ),
+        remedy: remedy.into(),
     }
 }
 

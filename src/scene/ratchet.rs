@@ -15,7 +15,7 @@ use crate::engine::event_driven::{
     self, Counts, EventDriven, EventDrivenState, Moving, Observer, PeriodicAcross, Sawtooth, Settings, Unobserved,
     VibratingBase,
 };
-use crate::engine::{DiskMotion, MOST_WORK_IN_A_CALL, WorkBudget};
+use crate::engine::{DiskMotion, Engine, MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::are_sane;
 use crate::measure::Transport;
 
@@ -96,7 +96,7 @@ where
         let (from, impulse) = (self.report.time, self.engine.state().counts.base_impulse);
         let outcome = self.run_to(end_time, values, observer);
         if let Err(error) = outcome.and_then(|()| self.check(NAME, end_time)) {
-            self.go_back(&backup);
+            self.go_back(&backup)?;
             return Err(error);
         }
         let given = self.engine.state().counts.base_impulse - impulse;
@@ -126,14 +126,14 @@ where
         while self.averages.transport.due() <= end_time {
             let due = self.averages.transport.due();
             self.engine
-                .advance_within(due, observer, &mut budget)
+                .advance_observed(due, observer, &mut budget)
                 .map_err(refusal)?;
             let positions = (0..self.masses.len()).map(|disk| self.engine.sample_at(due, disk).position.x);
             let input = self.engine.state().counts.energy_input;
             self.averages.transport.record(positions, input);
         }
         self.engine
-            .advance_within(end_time, observer, &mut budget)
+            .advance_observed(end_time, observer, &mut budget)
             .map_err(refusal)
     }
 
@@ -146,10 +146,11 @@ where
         }
     }
 
-    fn go_back(&mut self, state: &RatchetState<Sawtooth<D>>) {
-        self.engine.restore(&state.engine);
+    fn go_back(&mut self, state: &RatchetState<Sawtooth<D>>) -> Result<()> {
+        self.engine.restore(&state.engine, state.report.time).map_err(refusal)?;
         (self.report, self.start_energy) = (state.report, state.start_energy);
         self.averages.clone_from(&state.averages);
+        Ok(())
     }
 }
 
@@ -251,13 +252,13 @@ where
         let report_holds = state.report.is_sane() && are_sane([state.start_energy, averages.mark]);
         let counts_hold = state.engine.boundary.ceiling_hits() <= state.engine.counts.wall_impacts;
         let remedy = "Restore states of the same scene, disk count and parameters only.";
-        if !(averages_hold && report_holds && counts_hold && self.engine.fits(&state.engine)) {
+        if !(averages_hold && report_holds && counts_hold && self.engine.fits(&state.engine, state.report.time)) {
             return Err(Error::state("it is not a state of this run", remedy));
         }
         let former = self.saved();
-        self.go_back(state);
+        self.go_back(state)?;
         if !self.is_sane(state.report.time) {
-            self.go_back(&former);
+            self.go_back(&former)?;
             return Err(Error::state("it holds numbers that no ratchet has", remedy));
         }
         Ok(())

@@ -21,7 +21,7 @@ use super::disks_on_base::{
     names, rotations,
 };
 use super::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values};
-use engine::{Around, AtStart};
+use engine::AtStart;
 pub use engine::{SpecificEnergies, WedgeEngine};
 pub use rigid::{EventDriven, Map};
 use rows::NAME;
@@ -80,8 +80,8 @@ pub struct WedgeState<S> {
     pub turning: BatchMeans,
 }
 
-impl<E> Around<E> for Wedge<E> {
-    fn engine(&self) -> &E {
+impl<E> AsRef<E> for Wedge<E> {
+    fn as_ref(&self) -> &E {
         &self.engine
     }
 }
@@ -115,13 +115,15 @@ impl<E: WedgeEngine> Wedge<E> {
         let mut budget = WorkBudget::at_most(self.most_work);
         while self.turning.due() <= end_time {
             let due = self.turning.due();
-            self.engine.advance_to(due, &mut budget)?;
+            self.engine.advance_within(due, &mut budget).map_err(E::refused_step)?;
             self.turning.record(self.engine.disk_at(due).angle);
         }
-        self.engine.advance_to(end_time, &mut budget)
+        self.engine
+            .advance_within(end_time, &mut budget)
+            .map_err(E::refused_step)
     }
 
-    /// Runs to `end_time` and checks what came of it. After an error the state is of no use.
+    /// Runs to `end_time` and checks the result. After an error the state is of no use.
     fn run_sanely(&mut self, end_time: f64) -> Result<()> {
         self.run(end_time)?;
         if self.is_sane(end_time) {
@@ -250,7 +252,7 @@ impl<E: WedgeEngine> Model for Wedge<E> {
     fn new(_structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
         rows::check(values)?;
         let speed = rows::base_speed(values);
-        let engine = E::new(start_time, values)?;
+        let engine = E::from_values(start_time, values)?;
         let since = start_time.max(values.real("measure.start"));
         let mut scene = Self {
             engine,
@@ -270,7 +272,7 @@ impl<E: WedgeEngine> Model for Wedge<E> {
         let impulse = self.engine.impulse() * self.mass;
         self.engine.set_target(from, end_time - from, values);
         if let Err(error) = self.run_sanely(end_time) {
-            self.engine.restore(&backup.engine, from)?;
+            self.engine.restore(&backup.engine, from).map_err(E::refused_step)?;
             self.turning = backup.turning;
             return Err(error);
         }
@@ -287,7 +289,7 @@ impl<E: WedgeEngine> Model for Wedge<E> {
 
     fn state(&self) -> Self::State {
         WedgeState {
-            engine: self.engine.state(),
+            engine: self.engine.copied_state(),
             report: self.report,
             turning: self.turning.clone(),
         }
@@ -304,10 +306,18 @@ impl<E: WedgeEngine> Model for Wedge<E> {
         if !(report.is_sane() && turning.continues(&self.turning, FIRST_BATCH) && turning.due() > time) {
             return Err(Error::state("its running means cannot be those of a wedge", remedy));
         }
-        let former = self.engine.state();
-        self.engine.restore(&state.engine, time)?;
+        if !self.engine.fits(&state.engine, time) {
+            return Err(Error::state(
+                "its engine's part is no state of one disk in this wedge",
+                remedy,
+            ));
+        }
+        let former = self.engine.copied_state();
+        self.engine.restore(&state.engine, time).map_err(E::refused_step)?;
         if !self.is_sane(time) {
-            self.engine.restore(&former, self.report.time)?;
+            self.engine
+                .restore(&former, self.report.time)
+                .map_err(E::refused_step)?;
             return Err(Error::state("it holds numbers that no wedge has", remedy));
         }
         (self.report, self.turning) = (*report, turning.clone());

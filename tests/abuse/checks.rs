@@ -15,7 +15,7 @@ pub fn check_outputs(values: &Observed) -> Result<(), String> {
     Ok(())
 }
 
-/// How far disk and base may move \[m\] in the time that tells two numbers at `time` \[s\] apart: 1e-10 s after a million.
+/// How far disk and base may move \[m\] in the time that separates two numbers at `time` \[s\] apart: 1e-10 s after a million.
 /// The speeds are the largest that the energy, the lightest disk and the drive allow; `base` \[m/s\] is that of an input.
 fn place_at_resolution(values: &Observed, time: f64, base: f64) -> f64 {
     let radii = ["disk.radius_small", "disk.radius_medium", "disk.radius_large"];

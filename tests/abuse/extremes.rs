@@ -11,7 +11,7 @@ use super::checks::{check_box, check_energy, check_outputs};
 use super::pick;
 use super::trial::{Observed, Trial};
 
-/// A value that the row allows and nobody would choose.
+/// An extreme value that the row allows.
 fn extreme(generator: &mut Pcg64, kind: &Kind) -> Value {
     match kind {
         Kind::Real(quantity) => {

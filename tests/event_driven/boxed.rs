@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use jostle::collision::{CollisionLaw, ContactTime, Coulomb, Smooth};
 use jostle::drive::{AtRandomPhase, FollowsInput, RandomPhase, Sine};
-use jostle::engine::WorkBudget;
 use jostle::engine::event_driven::{
-    EventDriven, EventDrivenStop, Model, Moving, Open, Partner, Region, Settings, Unobserved, VibratingBase, Walls,
+    EventDriven, EventDrivenStop, Model, Moving, Open, Partner, Region, Settings, VibratingBase, Walls,
 };
+use jostle::engine::{Engine, WorkBudget};
 use jostle::geometry::{Disk, Vector2, Wall};
 use jostle::packing::{RadiusDistribution, advancing_front};
 use rand_pcg::Pcg64;
@@ -196,14 +196,12 @@ fn the_work_of_a_call_is_bounded() {
     let mut engine = boxed(law, sine(3.0), &disk, &[[0.0; 3]]);
     let mut other = engine.clone();
     let start = engine.state().clone();
-    let stop = engine
-        .advance_within(10.0, &mut Unobserved, &mut WorkBudget::at_most(100))
-        .unwrap_err();
+    let stop = engine.advance_within(10.0, &mut WorkBudget::at_most(100)).unwrap_err();
     assert!(
         matches!(stop, EventDrivenStop::TooManyEvents { time, most: 100 } if (0.1..10.0).contains(&time)),
         "{stop:?}"
     );
-    engine.restore(&start);
+    engine.restore(&start, 0.0).unwrap();
     for step in 1..=1000 {
         engine.advance_to(0.01 * f64::from(step)).unwrap();
     }

@@ -1,6 +1,7 @@
 //! Energy and momentum, and the mirror.
 
 use super::*;
+use jostle::engine::Engine;
 
 /// Elastic smooth disks under gravity on a base at rest.
 fn elastic(height: f64) -> EventDriven<Smooth, Sawtooth<Sine>, PeriodicAcross> {
@@ -64,7 +65,7 @@ fn elastic_smooth_disks_keep_energy_and_momentum() {
     }
 }
 
-/// Disks seen in a mirror do what mirrored disks do, until rounding is heard: the images of some hundred impacts.
+/// Mirrored disks have mirrored motion until rounding shows: the images of some hundred impacts.
 #[test]
 fn mirrored_teeth_give_mirrored_motion() {
     let drive = Sine {

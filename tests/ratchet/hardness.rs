@@ -112,7 +112,7 @@ fn nothing_penetrates_in(events: u64, tip: f64) {
     }
 }
 
-/// Memory of this process as the system tells it; 0 where there is no /proc.
+/// Memory of this process as the system reports it; 0 where there is no /proc.
 fn resident_kilobytes() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find(|line| line.starts_with("VmRSS"));

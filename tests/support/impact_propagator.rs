@@ -175,7 +175,7 @@ impl Propagator {
                         return (-state[1], state[2]);
                     }
                     slipping = None;
-                    // At the switch the margin of stick is at a double root: step off it before looking at its sign.
+                    // At the switch the margin of stick is at a double root: step off it before reading its sign.
                     state = times(&self.stick.propagators[20], &state);
                 }
             }

@@ -5,6 +5,7 @@ pub mod four_disks;
 pub mod impact_propagator;
 pub mod reference_impact;
 pub mod sawtooth_distance;
+pub mod soft_disks;
 
 use jostle::scene::{Kind, Model, Simulation, StructuralParameters, Value};
 

@@ -1,6 +1,6 @@
 //! The disk on two supports straight from the printed equations, by brute force: centres, distances, `atan2`, tiny steps.
 //!
-//! P 4.1 to 4.12, 4.23, 4.24 with ERRATA's signs and arms. Classical Runge-Kutta steps; Amonton's limit and the cut-off of
+//! P 4.1 to 4.12, 4.23, 4.24 with ERRATA's signs and arms. Classical Runge-Kutta steps; Coulomb's limit and the cut-off of
 //! the normal force act inside each evaluation, lambda* moves at the end of a step and is dated back to the touch. Errors fall
 //! at events with the square of the step where forces are continuous there, with its first power where they jump.
 
@@ -76,17 +76,17 @@ impl Raw {
                 ratio: 1.0,
             }
         } else {
-            let reach = 2.0 * self.radius;
-            let from = [reach * rest[0] + x, reach * rest[1] + y - lift];
+            let radius_sum = 2.0 * self.radius;
+            let from = [radius_sum * rest[0] + x, radius_sum * rest[1] + y - lift];
             let distance = from[0].hypot(from[1]);
             let normal = [from[0] / distance, from[1] / distance];
             let beta = from[1].atan2(from[0]) - rest[1].atan2(rest[0]);
             Touch {
-                overlap: reach - distance,
+                overlap: radius_sum - distance,
                 rate: -(vx * normal[0] + (vy - lift_rate) * normal[1]),
-                lambda: self.radius * theta - reach * beta,
+                lambda: self.radius * theta - radius_sum * beta,
                 normal,
-                ratio: distance / reach,
+                ratio: distance / radius_sum,
             }
         }
     }

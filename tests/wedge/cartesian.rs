@@ -17,7 +17,7 @@ pub struct Plain {
 }
 
 impl Plain {
-    /// The start of `DiskInWedge::new`, seen from the vertex of the shifted wedge.
+    /// The start of `DiskInWedge::new`, relative to the vertex of the shifted wedge.
     pub fn new(tilt: f64, height: f64, sideways: f64) -> Self {
         Self {
             time: 0.0,

@@ -10,6 +10,7 @@ use cartesian::{Plain, wall_angles};
 use jostle::collision::{CollisionLaw, Coulomb, Dashpot, TabulatedDashpot, VelocityFloor};
 use jostle::contact::LinearDashpot;
 use jostle::drive::{AtRandomPhase, BaseMotion, RandomPhase, Sine};
+use jostle::engine::Engine;
 use jostle::engine::wedge::{DiskInWedge, Start, WedgeFrame, WedgeSetup};
 use jostle::measure::BatchMeans;
 use rand::SeedableRng;
@@ -205,7 +206,7 @@ fn energy_and_momentum_balance_to_rounding() {
     balance(moving);
 }
 
-/// A wedge tilted the other way, thrown the other way, with the same random numbers: the mirrored bits.
+/// A wedge with opposite tilt and opposite throw, with the same random numbers: the mirrored bits.
 #[test]
 fn mirrored_wedges_turn_oppositely_to_the_last_bit() {
     let map = |tilt: f64, sideways: f64| {

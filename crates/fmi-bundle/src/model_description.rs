@@ -2,7 +2,7 @@
 //!
 //! Guarantees: the start values are those of a new instance, the capability flags say what is there and no more, and the
 //! same input gives the same bytes (the date is part of the input). Outputs depend on no input at the same instant: they
-//! change in a step only, so that an importer need not look for algebraic loops. While the component is initialised they
+//! change in a step only, so that an importer need not search for algebraic loops. While the component is initialised they
 //! depend on the parameters and inputs that the model names, and on no others; a variable without a list leaves it out, which
 //! the standards read as all.
 
@@ -45,7 +45,7 @@ fn root(component: &Component, version: Version) -> Attributes {
         Version::Three => ("3.0", "instantiationToken"),
     };
     let (info, notices) = (component.info(), &component.notices);
-    // The first part of a variant is what a reader tells models of one name apart by.
+    // The first part of a variant distinguishes models of one name.
     let model_name: Vec<_> = [info.name]
         .into_iter()
         .chain(info.variant.first().map(|(_, value)| *value))

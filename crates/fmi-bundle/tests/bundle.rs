@@ -1,4 +1,4 @@
-//! What is in an FMU: what each standard asks for, the same bytes each time, and what is told where it cannot be written.
+//! What is in an FMU: what each standard asks for, the same bytes each time, and the message where it cannot be written.
 
 #![allow(unsafe_code, clippy::unwrap_used)]
 

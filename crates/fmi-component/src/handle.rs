@@ -1,8 +1,8 @@
 //! What a pointer in a caller's hands points to, for FMI and for the C library alike.
 //!
-//! A word at its beginning tells it from other memory, from a handle of another kind and, as far as that can be, from one
-//! that was freed. A lock lends its content to one call at a time: it refuses and does not wait, since the call that is in
-//! its way may be the caller's own, further up the stack. Only a call that left and resumes waits.
+//! A word at its beginning distinguishes it from other memory, from a handle of another kind and, as far as that can be,
+//! from one that was freed. A lock lends its content to one call at a time: it refuses and does not wait, since the call
+//! that holds it may be the caller's own, further up the stack. Only a call that left and resumes waits.
 //!
 //! Needs: a pointer that is null, leads to memory that may be read, or was handed out and not freed. Guarantees: nothing
 //! behind the word is touched unless the word is right; no two calls hold the content at once; a panic leaves it unlocked.
@@ -58,7 +58,7 @@ impl<T, const WORD: u64> Handle<T, WORD> {
         }))
     }
 
-    /// The way in: does `work` with the content while nobody else can.
+    /// Does `work` with the content under its lock.
     ///
     /// # Safety
     /// `pointer` is null, leads to eight bytes that may be read, or was handed out and not freed.
@@ -73,7 +73,7 @@ impl<T, const WORD: u64> Handle<T, WORD> {
         Ok(work(unsafe { &mut *handle.content.get() }))
     }
 
-    /// The way back in for a call that let go of the content in its midst. Whoever is inside now is on another thread, since
+    /// Takes the lock again for a call that released it midway. Who holds it now is on another thread, since
     /// all that the caller did meanwhile has returned: it is waited for.
     ///
     /// # Safety
@@ -115,7 +115,7 @@ impl<T, const WORD: u64> Handle<T, WORD> {
         // SAFETY: the word is right, so `pointer` was made by `Box::into_raw` above; by the caller's promise it was not
         // freed before.
         let boxed = unsafe { Box::from_raw(pointer) };
-        // Content that panics when it is dropped has nobody left to tell.
+        // Content that panics when it is dropped can report to nobody.
         let _ = catch_unwind(AssertUnwindSafe(|| drop(boxed)));
         Ok(())
     }

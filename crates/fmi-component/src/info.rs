@@ -12,7 +12,7 @@ pub struct ModelInfo {
     pub version: &'static str,
     /// Model, such as `pendulum`.
     pub name: &'static str,
-    /// What tells apart models of one name, as pairs of key and value: `("engine", "event-driven")`. Empty for most.
+    /// What distinguishes models of one name, as pairs of key and value: `("engine", "event-driven")`. Empty for most.
     pub variant: Vec<(&'static str, &'static str)>,
     /// Model identifier of FMI: file name and C identifier at once, such as `mechanics_pendulum`.
     pub identifier: Cow<'static, str>,

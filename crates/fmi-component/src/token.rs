@@ -1,7 +1,7 @@
 //! Instantiation token (FMI 3.0) and GUID (FMI 2.0): which model and structure a library is to run, and a fingerprint.
 //!
 //! The structural parameters that were chosen when an FMU was bundled travel in the token, so that no resource file has to be
-//! found and read. The fingerprint of the variables tells a model description that belongs to another library.
+//! found and read. The fingerprint of the variables exposes a model description that belongs to another library.
 //!
 //! ```text
 //! mechanics:chain:input:bodies=60:1f0c3a5be2d49768

@@ -198,7 +198,7 @@ impl Variable {
     }
 }
 
-/// Tells a table of variables from any other: FNV-1a, 64 bits, over the model's version, names, causalities, types, units, ranges
+/// Distinguishes a table of variables from any other: FNV-1a, 64 bits, over the model's version, names, causalities, types, units, ranges
 /// and start values.
 pub fn fingerprint<'a>(version: &str, variables: impl IntoIterator<Item = &'a Variable>) -> u64 {
     let mut text = String::from(version);

@@ -11,6 +11,7 @@ use std::f64::consts::TAU;
 use jostle::collision::{CollisionLaw, Coulomb, Dashpot, Impact};
 use jostle::contact::LinearDashpot;
 use jostle::drive::{AtRandomPhase, RandomPhase};
+use jostle::engine::Engine;
 use jostle::engine::wedge::{DiskInWedge, Start, WedgeFrame, WedgeSetup};
 use jostle::measure::BatchMeans;
 use rand::SeedableRng;

@@ -21,13 +21,13 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    ReportCommand(report::ReportCommand),
+    Report(report::ReportCommand),
     Stability(stability::Stability),
 }
 
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
-        Command::ReportCommand(report) => report.execute(),
+        Command::Report(report) => report.execute(),
         Command::Stability(stability) => stability.execute(),
     };
     match done {

@@ -29,7 +29,7 @@ impl Describe {
     pub fn execute(self) -> Result<(), Failure> {
         let page = page(&self.selection.find(self.drive.as_deref())?, self.all);
         match io::stdout().write_all(page.as_bytes()) {
-            // The reader, such as head, has seen enough.
+            // The reader, such as head, has read enough.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
             written => written.map_err(|error| Failure::file("standard output".as_ref(), error)),
         }

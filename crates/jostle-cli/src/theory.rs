@@ -1,4 +1,4 @@
-//! `jostle theory`: curves of the theory as CSV, for whoever draws them.
+//! `jostle theory`: curves of the theory as CSV, to be drawn elsewhere.
 
 use std::io::{self, Write};
 
@@ -79,7 +79,7 @@ impl Theory {
         let swept = swept(&self.assignments)?;
         let page = page(self.quantity, &swept)?;
         match io::stdout().write_all(page.as_bytes()) {
-            // The reader, such as head, has seen enough.
+            // The reader, such as head, has read enough.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
             written => written.map_err(|error| Failure::file("standard output".as_ref(), error)),
         }

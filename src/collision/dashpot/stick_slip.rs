@@ -67,7 +67,7 @@ const MOST_PHASES: usize = 10_000;
 /// Steps from parabola to parabola within one phase; grazing takes the most, some hundred.
 const MOST_STEPS: usize = 2_000;
 
-/// Appends a phase to the number that tells sequences apart.
+/// Appends a phase to the number that identifies a sequence.
 fn next_in(sequence: u64, phase: u64) -> u64 {
     sequence.wrapping_mul(1_000_003).wrapping_add(phase)
 }

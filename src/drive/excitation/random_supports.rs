@@ -15,7 +15,7 @@ pub enum NoiseSign {
     AsDrawn,
     /// Every displacement and angle reversed.
     Reversed,
-    /// Seen in a mirror: supports exchanged, x and angle reversed.
+    /// Mirrored: supports exchanged, x and angle reversed.
     Mirrored,
 }
 

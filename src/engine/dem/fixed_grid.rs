@@ -201,6 +201,11 @@ impl<S: Stepper, D> FixedGrid<S, D> {
         &self.stepper.constants().radii
     }
 
+    /// All that the future depends on.
+    pub fn state(&self) -> &GridState<D, S::Disks> {
+        &self.state
+    }
+
     /// Time of the present grid point \[s\].
     pub fn time(&self) -> f64 {
         self.stepper.constants().time_of(self.state.steps)
@@ -229,8 +234,8 @@ impl<S: Stepper, D: Drive> Engine for FixedGrid<S, D> {
         outcome
     }
 
-    fn state(&self) -> &Self::State {
-        &self.state
+    fn copied_state(&self) -> Self::State {
+        self.state.clone()
     }
 
     fn fits(&self, state: &Self::State, time: f64) -> bool {

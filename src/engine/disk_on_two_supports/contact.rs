@@ -11,7 +11,7 @@ pub enum ContactPhase {
     Relaxing,
     /// The tangential spring holds.
     Stick,
-    /// The tangential spring slips at the limit of Coulomb friction, stretched by a disk that turns this way.
+    /// The tangential spring slips at the limit of Coulomb friction, stretched by a disk that turns in this sense.
     Slip(Sense),
 }
 
@@ -61,7 +61,7 @@ impl Contact {
         matches!(self.phase, ContactPhase::Stick | ContactPhase::Slip(_))
     }
 
-    /// Which way it slips, if it does.
+    /// Sense in which it slips, if it does.
     #[inline]
     pub fn slips(&self) -> Option<Sense> {
         match self.phase {
@@ -116,7 +116,7 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// What may end a phase, positive as long as it does not: `[first, second]` \[N\].
 ///
 /// Apart: overlap. Relaxing: end of overlap, return of the force. Stick: end of the force, limit of friction. Slip: end of the
-/// force, slip the other way. Rounding errors change nothing, or a contact at a limit would change for ever.
+/// force, slip in the opposite sense. Rounding errors change nothing, or a contact at a limit would change without end.
 #[inline]
 pub fn margins(contact: &Contact, force: &ContactForce, bounds: &Bounds) -> [f64; 2] {
     let per_rate = bounds.tangential_stiffness * bounds.time;

@@ -236,6 +236,11 @@ impl<E: Excitation> DiskOnTwoSupports<E> {
             .observe(now.offset, &now.disk, &now.contacts)
     }
 
+    /// All that the future depends on.
+    pub fn state(&self) -> &TwoSupportsState<E> {
+        &self.state
+    }
+
     /// Torque and motion of the supports at the time reached.
     pub fn driven(&self) -> (f64, [SupportMotion; 2]) {
         let (piece, offset) = (self.time_step(self.step_start(0)).piece, self.state.now.offset);
@@ -257,8 +262,8 @@ impl<E: Excitation> Engine for DiskOnTwoSupports<E> {
         outcome.map(|_| ())
     }
 
-    fn state(&self) -> &TwoSupportsState<E> {
-        &self.state
+    fn copied_state(&self) -> TwoSupportsState<E> {
+        self.state.clone()
     }
 
     fn fits(&self, state: &TwoSupportsState<E>, time: f64) -> bool {

@@ -10,7 +10,7 @@ use crate::drive::excitation::SupportMotion;
 pub struct SupportFrame {
     /// From the support to the disk.
     pub normal: [f64; 2],
-    /// The normal turned clockwise: a disk that turns counter-clockwise moves this way at the contact.
+    /// The normal turned clockwise: the surface of a disk that turns counter-clockwise moves along it at the contact.
     pub tangent: [f64; 2],
 }
 

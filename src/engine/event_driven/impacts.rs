@@ -1,4 +1,4 @@
-//! Impacts: two bodies that touch, an impulse and its opposite, what is lost.
+//! Impacts: two bodies that touch, an impulse and its opposite, the energy lost.
 
 use crate::collision::{CollisionLaw, Impact, Impulse, effective_mass, tangential_mass};
 use crate::geometry::clockwise;

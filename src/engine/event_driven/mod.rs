@@ -156,20 +156,12 @@ impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
         engine
     }
 
-    /// Handles all events up to `end_time` \[s\].
+    /// Handles all events up to `end_time` \[s\] and takes their work off `work`; shows the flights that they end to the
+    /// observer, which changes no bit. Flights that go on at the end are shown by [`Self::show_flights`].
     ///
     /// # Errors
-    /// The run makes no progress, or there are more events than one call may handle; the state is then of no use.
-    pub fn advance_to(&mut self, end_time: f64) -> Result<(), EventDrivenStop> {
-        self.advance_within(end_time, &mut Unobserved, &mut WorkBudget::default())
-    }
-
-    /// As [`Self::advance_to`], to the bit, with the work that it takes taken off `work`; shows the flights that end on the
-    /// way. Flights that go on at the end are shown by [`Self::show_flights`].
-    ///
-    /// # Errors
-    /// As [`Self::advance_to`].
-    pub fn advance_within(
+    /// The run makes no progress, or there are more events than the budget allows; the state is then of no use.
+    pub fn advance_observed(
         &mut self,
         end_time: f64,
         observer: &mut impl Observer,
@@ -213,12 +205,6 @@ impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
     /// Where the disks live.
     pub fn space(&self) -> &S {
         &self.space
-    }
-
-    /// Goes back (or on) to a state of this run.
-    pub fn restore(&mut self, state: &EventDrivenState<B>) {
-        self.state.clone_from(state);
-        self.fill_calendar();
     }
 
     /// Changes the boundary at `time` \[s\] and predicts anew all disks that are near a wall before or after. Shows the

@@ -111,7 +111,7 @@ impl<D: BoundedDrive> Sawtooth<D> {
         if gap.value <= 0.0 && gap.rate < 0.0 {
             return Some(0.0);
         }
-        // The contact just left may overlap by rounding: it is one again when the gap comes back to where it is.
+        // The contact just left may overlap by rounding: it counts as one again when the gap has returned to its value now.
         let overlap = (-gap.value).max(0.0);
         let mut delay = 0.0;
         for _ in 0..MOST_STEPS {
@@ -222,7 +222,7 @@ where
         2
     }
 
-    /// Each tooth under the disk is searched.
+    /// The search goes through each tooth under the disk.
     fn most_work(&self, radius: f64) -> u64 {
         (radius / self.profile.width()) as u64
     }

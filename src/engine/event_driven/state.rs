@@ -3,10 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::collision::CollisionLaw;
+use crate::engine::{Engine, WorkBudget};
 use crate::error::are_sane;
 
 use super::shells::Shells;
-use super::{Body, Boundary, EventDriven, Partner, Space, Spin};
+use super::{Body, Boundary, EventDriven, Partner, Space, Spin, Unobserved};
 
 /// Farthest local time \[s\] from its origin.
 const FARTHEST: f64 = 1e12;
@@ -93,9 +94,20 @@ pub struct EventDrivenState<B> {
     pub(super) shells: Shells,
 }
 
-impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
-    /// Whether `state` can be one of this run: as many disks, and indices that exist.
-    pub fn fits(&self, state: &EventDrivenState<B>) -> bool {
+impl<L: CollisionLaw, B: Boundary, S: Space> Engine for EventDriven<L, B, S> {
+    type State = EventDrivenState<B>;
+    type Stop = EventDrivenStop;
+
+    fn advance_within(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<(), EventDrivenStop> {
+        self.advance_observed(end_time, &mut Unobserved, budget)
+    }
+
+    fn copied_state(&self) -> EventDrivenState<B> {
+        self.state.clone()
+    }
+
+    /// As many disks, and indices that exist; at any time.
+    fn fits(&self, state: &EventDrivenState<B>, _time: f64) -> bool {
         let disks = self.state.bodies.len();
         let walls = self.state.boundary.count();
         let wall_set = 1_u32.checked_shl(walls).unwrap_or(0).wrapping_sub(1);
@@ -125,5 +137,12 @@ impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
             && self.state.boundary.fits(&state.boundary, state.epoch)
             && state.shells.is_sound(&self.state.shells)
             && state.shells.entries.iter().all(|entry| entry.walls & !wall_set == 0)
+    }
+
+    /// Never fails.
+    fn restore(&mut self, state: &EventDrivenState<B>, _time: f64) -> Result<(), EventDrivenStop> {
+        self.state.clone_from(state);
+        self.fill_calendar();
+        Ok(())
     }
 }

@@ -14,7 +14,7 @@ mod state;
 
 use nalgebra::Vector2;
 
-use super::{DiskMotion, WorkBudget};
+use super::{DiskMotion, Engine, WorkBudget};
 use crate::collision::{CollisionLaw, Impact, tangential_mass};
 use crate::drive::{BaseMotion, Motion};
 use crate::geometry::{Flight, clockwise};
@@ -120,30 +120,6 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
         engine
     }
 
-    /// Does all impacts up to `end_time` \[s\].
-    ///
-    /// # Errors
-    /// The disk is stuck, or there are more impacts than one call may do; the state is then that of the last impact and
-    /// of no use.
-    pub fn advance_to(&mut self, end_time: f64) -> Result<(), WedgeStop> {
-        self.advance_within(end_time, &mut WorkBudget::default())
-    }
-
-    /// As [`Self::advance_to`], with the work that it takes taken off `work`.
-    ///
-    /// # Errors
-    /// As [`Self::advance_to`].
-    pub fn advance_within(&mut self, end_time: f64, work: &mut WorkBudget) -> Result<(), WedgeStop> {
-        while self.state.time + self.state.delay <= end_time {
-            if !work.spend(self.work_of_impact) {
-                let (time, most) = (self.state.time, work.most() / self.work_of_impact);
-                return Err(WedgeStop::TooManyImpacts { time, most });
-            }
-            self.next_impact().map_err(WedgeStop::Stuck)?;
-        }
-        Ok(())
-    }
-
     /// Flies to the next wall and bounces there.
     ///
     /// # Errors
@@ -185,11 +161,6 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
     /// All that the future depends on.
     pub fn state(&self) -> &WedgeState<B> {
         &self.state
-    }
-
-    /// Goes on from `state`.
-    pub fn restore(&mut self, state: &WedgeState<B>) {
-        self.state.clone_from(state);
     }
 
     /// What stays as it is.
@@ -305,6 +276,50 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
             along: state.position.x,
             collisions,
         }
+    }
+}
+
+impl<L: CollisionLaw, B: BaseMotion> Engine for DiskInWedge<L, B> {
+    type State = WedgeState<B>;
+    type Stop = WedgeStop;
+
+    /// Does all impacts up to `end_time` \[s\]. After an error the state is that of the last impact and of no use.
+    fn advance_within(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<(), WedgeStop> {
+        while self.state.time + self.state.delay <= end_time {
+            if !budget.spend(self.work_of_impact) {
+                let (time, most) = (self.state.time, budget.most() / self.work_of_impact);
+                return Err(WedgeStop::TooManyImpacts { time, most });
+            }
+            self.next_impact().map_err(WedgeStop::Stuck)?;
+        }
+        Ok(())
+    }
+
+    fn copied_state(&self) -> WedgeState<B> {
+        self.state.clone()
+    }
+
+    /// A finite flight that `time` lies in.
+    fn fits(&self, state: &WedgeState<B>, time: f64) -> bool {
+        let numbers = [
+            state.time,
+            state.position.x,
+            state.position.y,
+            state.velocity.x,
+            state.velocity.y,
+            state.surface_velocity,
+            state.arc_length,
+            state.base.displacement,
+            state.base.velocity,
+        ];
+        let in_flight = state.time <= time && time < state.time + state.delay;
+        numbers.iter().all(|number| number.is_finite()) && state.delay >= 0.0 && in_flight
+    }
+
+    /// Never fails.
+    fn restore(&mut self, state: &WedgeState<B>, _time: f64) -> Result<(), WedgeStop> {
+        self.state.clone_from(state);
+        Ok(())
     }
 }
 

@@ -23,9 +23,9 @@ pub struct WedgeState<B> {
     pub position: Vector2<f64>,
     /// Velocity of the centre relative to the laboratory at the start of the flight \[m/s\], in the frame of `side`.
     pub velocity: Vector2<f64>,
-    /// Velocity of the rim by the disk's spin, `R omega`, counter-clockwise \[m/s\].
+    /// Surface velocity of the spinning disk, `R omega`, counter-clockwise \[m/s\].
     pub surface_velocity: f64,
-    /// Arc length that the rim has turned by up to the start of the flight \[m\]: R times the angle.
+    /// Arc length that the surface has turned by up to the start of the flight \[m\]: R times the angle.
     pub arc_length: f64,
     /// Wall that the disk meets next.
     pub next_side: Side,

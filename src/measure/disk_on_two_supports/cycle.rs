@@ -52,7 +52,7 @@ fn without_rest(limits: &Limits, amplitude: f64) -> Option<f64> {
     }
     let middle = PI - middle_sine.asin();
     let (begin, end) = (middle - 0.5 * forth, middle + 0.5 * forth);
-    // It must set off at once, both ways.
+    // It must set off at once, in both senses.
     if amplitude * begin.sin() < counter_clockwise || -amplitude * end.sin() < clockwise {
         return None;
     }
@@ -86,7 +86,7 @@ fn with_rests(limits: &Limits, amplitude: f64) -> (f64, f64, f64) {
     (of_cycle(|m| m.turn), of_cycle(|m| m.phase), of_cycle(|m| m.resting))
 }
 
-/// A disk on its way, at rest at this phase and about to slide.
+/// A disk at rest at this phase and about to slide.
 #[derive(Clone)]
 struct March<'a> {
     limits: &'a Limits,

@@ -14,7 +14,7 @@ use super::{Corner, Limits, Setting, closed_form};
 ///
 /// `limits` should be those of the same contacts, [`super::Relaxed::limits`]. `None` where [`closed_form`] is. It holds if
 /// slides and rests last much longer than the oscillations of the disk on its contacts, of rate `gamma_n / (2 m)`, and
-/// assumes that the weaker contact slides before both do, which it does once the torque has been strong enough both ways.
+/// assumes that the weaker contact slides before both do, which it does once the torque has been strong enough in both senses.
 /// The next order is the square of the correction's relative size.
 pub fn closed_form_with_inertia(
     setting: &Setting,

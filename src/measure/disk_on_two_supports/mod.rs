@@ -9,7 +9,7 @@
 //! | `balance` | normal forces from tangential ones and accelerations | 4.23 to 4.30 |
 //! | `region` | admissible region of departure and stretch, its corners | 4.32 to 4.49 |
 //! | `limits` | torques at which the disk slides, tilt at which a contact opens | 4.50, 5.3 to 5.5 |
-//! | `regime` | which way a harmonic torque makes it slide | 5.2.1, Fig. 5.1 |
+//! | `regime` | senses in which a harmonic torque makes it slide | 5.2.1, Fig. 5.1 |
 //! | `slide` | one slide under a harmonic torque, from rest to rest | 5.6 to 5.8 |
 //! | `closed_form` | mean angular velocity while the disk rests between slides | 5.9 |
 //! | `cycle` | the same for any amplitude, by marching through slides and rests | from 5.6 |

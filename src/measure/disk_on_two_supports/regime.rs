@@ -1,4 +1,4 @@
-//! Which way a slow harmonic torque makes the disk slide: the phase diagram of P Fig. 5.1.
+//! In which senses a slow harmonic torque makes the disk slide: the phase diagram of P Fig. 5.1.
 
 use super::{Limits, Setting, detachment_tilt, limits};
 

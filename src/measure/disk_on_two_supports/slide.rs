@@ -5,7 +5,7 @@
 //! `I omega_e omega(psi) = A (cos psi_0 - cos psi) - L (psi - psi_0)`
 //!
 //! P writes it for slides that begin where the torque passes the limit, `A sin psi_0 = L`. A disk that has just been
-//! stopped may set off the other way at any phase, hence the general `psi_0`.
+//! stopped may set off in the opposite sense at any phase, hence the general `psi_0`.
 
 use std::f64::consts::{PI, TAU};
 

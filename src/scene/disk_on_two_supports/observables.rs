@@ -1,7 +1,6 @@
 //! What the rows read from the engine: the disk, contacts, supports and energies at the time reached.
 
 use crate::drive::excitation::SupportMotion;
-use crate::engine::Engine;
 use crate::engine::disk_on_two_supports::{Node, Record};
 
 use super::{DiskOnTwoSupportsDrive, DiskOnTwoSupportsScene};

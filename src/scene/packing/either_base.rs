@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::drive::{AtRandomPhase, Motion, Sine};
 use crate::engine::event_driven::{Counts, EventDrivenState, EventDrivenStop, Moving, Walls};
-use crate::engine::{DiskMotion, WorkBudget};
+use crate::engine::{DiskMotion, Engine, WorkBudget};
 use crate::geometry::Disk;
 use crate::scene::{Result, Row, Values};
 
@@ -57,8 +57,40 @@ macro_rules! either {
     };
 }
 
-impl HardEngine for EitherBase {
+impl Engine for EitherBase {
     type State = EitherState;
+    type Stop = EventDrivenStop;
+
+    fn advance_within(&mut self, end_time: f64, budget: &mut WorkBudget) -> std::result::Result<(), EventDrivenStop> {
+        either!(self, run => run.advance_within(end_time, budget))
+    }
+
+    fn copied_state(&self) -> EitherState {
+        match self {
+            Self::RandomPhase(run) => EitherState::RandomPhase(run.copied_state()),
+            Self::Moving(run) => EitherState::Moving(run.copied_state()),
+        }
+    }
+
+    fn fits(&self, state: &EitherState, time: f64) -> bool {
+        match (self, state) {
+            (Self::RandomPhase(run), EitherState::RandomPhase(state)) => run.fits(state, time),
+            (Self::Moving(run), EitherState::Moving(state)) => run.fits(state, time),
+            _ => false,
+        }
+    }
+
+    /// Never fails.
+    fn restore(&mut self, state: &EitherState, time: f64) -> std::result::Result<(), EventDrivenStop> {
+        match (self, state) {
+            (Self::RandomPhase(run), EitherState::RandomPhase(state)) => run.restore(state, time),
+            (Self::Moving(run), EitherState::Moving(state)) => run.restore(state, time),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl HardEngine for EitherBase {
     type Drive = Sine;
 
     fn parameters<M>() -> Vec<Row<M>> {
@@ -67,19 +99,15 @@ impl HardEngine for EitherBase {
         rows
     }
 
-    fn new(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self> {
+    fn from_values(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self> {
         Ok(if values.integer("base.model") == RANDOM_PHASE {
-            Self::RandomPhase(Box::new(HardEngine::new(disks, masses, start_time, values)?))
+            Self::RandomPhase(Box::new(HardEngine::from_values(disks, masses, start_time, values)?))
         } else {
-            Self::Moving(Box::new(HardEngine::new(disks, masses, start_time, values)?))
+            Self::Moving(Box::new(HardEngine::from_values(disks, masses, start_time, values)?))
         })
     }
 
     fn set_target(&mut self, _time: f64, _duration: f64, _values: &Values) {}
-
-    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> std::result::Result<(), EventDrivenStop> {
-        either!(self, run => HardEngine::advance_to(&mut **run, end_time, budget))
-    }
 
     fn disk_at(&self, time: f64, disk: usize) -> DiskMotion {
         either!(self, run => run.disk_at(time, disk))
@@ -91,28 +119,5 @@ impl HardEngine for EitherBase {
 
     fn base_at(&self, time: f64) -> Motion {
         either!(self, run => run.base_at(time))
-    }
-
-    fn state(&self) -> Self::State {
-        match self {
-            Self::RandomPhase(run) => EitherState::RandomPhase(HardEngine::state(&**run)),
-            Self::Moving(run) => EitherState::Moving(HardEngine::state(&**run)),
-        }
-    }
-
-    fn fits(&self, state: &Self::State) -> bool {
-        match (self, state) {
-            (Self::RandomPhase(run), EitherState::RandomPhase(state)) => run.fits(state),
-            (Self::Moving(run), EitherState::Moving(state)) => run.fits(state),
-            _ => false,
-        }
-    }
-
-    fn restore(&mut self, state: &Self::State) {
-        match (self, state) {
-            (Self::RandomPhase(run), EitherState::RandomPhase(state)) => run.restore(state),
-            (Self::Moving(run), EitherState::Moving(state)) => run.restore(state),
-            _ => {}
-        }
     }
 }

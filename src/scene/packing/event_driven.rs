@@ -10,7 +10,7 @@ use crate::engine::{DiskMotion, MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::are_sane;
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, radii};
-use crate::scene::hard_disks::{EnergyRows, HardDisksOnBase};
+use crate::scene::hard_disks::{self, EnergyRows, HardDisksOnBase};
 use crate::scene::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, info};
 
 use super::either_base::EitherBase;
@@ -102,32 +102,16 @@ impl<E: HardEngine> HardDisksOnBase for HardPacking<E> {
 }
 
 fn refused_step(stop: EventDrivenStop) -> Error {
-    let stop = match stop {
-        EventDrivenStop::NoHeadway(stop) => stop,
-        EventDrivenStop::TooManyEvents { time, most } => {
-            return Error::too_much_work(NAME, time, format!("more than {most} events"));
-        }
+    let partner = |partner| match partner {
+        Partner::Wall(0) => "the base",
+        Partner::Wall(1) => "the left wall",
+        Partner::Wall(_) => "the right wall",
+        _ => "nobody in a flight too fast to follow",
     };
-    let disk = stop.disk + 1;
-    let partner = match stop.partner {
-        Partner::Disk(other) => format!("disk {}", other + 1),
-        Partner::Shell => "nobody in a flight too fast to follow".into(),
-        Partner::Wall(0) => "the base".into(),
-        Partner::Wall(1) => "the left wall".into(),
-        Partner::Wall(_) => "the right wall".into(),
-    };
-    Error::Step {
-        model: NAME,
-        time: stop.time,
-        what: format!(
-            "no headway: {} events in {:e} s, the last of disk {disk} with {partner}",
-            stop.events, stop.duration
-        ),
-        remedy: "Does the base throw disks too fast? Check its amplitude and the inputs. Inelastic collapse? Raise \
-                 collision.contact_time or lower contact.normal_damping, or use the engine \
-                 molecular-dynamics, which knows lasting contacts."
-            .into(),
-    }
+    let remedy = "Does the base throw disks too fast? Check its amplitude and the inputs. Inelastic collapse? Raise \
+                  collision.contact_time or lower contact.normal_damping, or use the engine molecular-dynamics, which \
+                  knows lasting contacts.";
+    hard_disks::refused_step(NAME, stop, partner, remedy)
 }
 
 impl<E: HardEngine> Model for HardPacking<E> {
@@ -180,7 +164,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
         let disks = initial_packing::disks(info::disks(structure), values, START_GAP)?;
         let masses = initial_packing::masses(&disks, values);
         let mut packing = Self {
-            engine: E::new(&disks, &masses, start_time, values)?,
+            engine: E::from_values(&disks, &masses, start_time, values)?,
             masses,
             radii: disks.iter().map(|disk| disk.radius).collect(),
             gravity: values.real("gravity"),
@@ -193,15 +177,15 @@ impl<E: HardEngine> Model for HardPacking<E> {
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        let backup = self.engine.state();
+        let backup = self.engine.copied_state();
         let (from, impulse) = (self.report.time, self.counts().base_impulse);
         self.engine.set_target(from, end_time - from, values);
         let outcome = self
             .engine
-            .advance_to(end_time, &mut WorkBudget::at_most(self.most_work));
+            .advance_within(end_time, &mut WorkBudget::at_most(self.most_work));
         let outcome = outcome.map_err(refused_step).and_then(|()| self.check(NAME, end_time));
         if let Err(error) = outcome {
-            self.engine.restore(&backup);
+            self.engine.restore(&backup, from).map_err(refused_step)?;
             return Err(error);
         }
         let given = self.counts().base_impulse - impulse;
@@ -218,7 +202,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
 
     fn state(&self) -> Self::State {
         HardPackingState {
-            engine: self.engine.state(),
+            engine: self.engine.copied_state(),
             report: self.report,
             start_energy: self.start_energy,
         }
@@ -229,15 +213,16 @@ impl<E: HardEngine> Model for HardPacking<E> {
     }
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
+        let time = state.report.time;
         let remedy = "Restore states of the same scene, disk count and parameters only.";
         let report_holds = state.report.is_sane() && are_sane([state.start_energy]);
-        if !(self.engine.fits(&state.engine) && report_holds) {
+        if !(self.engine.fits(&state.engine, time) && report_holds) {
             return Err(Error::state("it is not a state of this run", remedy));
         }
-        let former = self.engine.state();
-        self.engine.restore(&state.engine);
-        if !self.is_sane(state.report.time) {
-            self.engine.restore(&former);
+        let former = self.engine.copied_state();
+        self.engine.restore(&state.engine, time).map_err(refused_step)?;
+        if !self.is_sane(time) {
+            self.engine.restore(&former, self.report.time).map_err(refused_step)?;
             return Err(Error::state("it holds numbers that no packing has", remedy));
         }
         (self.report, self.start_energy) = (state.report, state.start_energy);

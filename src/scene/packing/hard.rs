@@ -2,14 +2,12 @@
 
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::SeedableRng;
-use serde::Serialize;
-use serde::de::DeserializeOwned;
 
 use crate::drive::{AtRandomPhase, Motion, RandomPhase, Sine};
 use crate::engine::event_driven::{
-    Counts, EventDriven, EventDrivenState, EventDrivenStop, Model, Open, Region, Settings, Unobserved, Walls,
+    Counts, EventDriven, EventDrivenStop, Model, Open, Region, Settings, Unobserved, Walls,
 };
-use crate::engine::{DiskMotion, WorkBudget};
+use crate::engine::{DiskMotion, Engine};
 use crate::geometry::{Disk, Vector2};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::hard_disks::HardBase;
@@ -28,9 +26,7 @@ pub const START_GAP: f64 = 1e-3;
 const REGION_HEIGHT: f64 = 3.0;
 
 /// How a scene runs hard disks: one engine, or one of two that a parameter chooses. Chosen outside the inner loop.
-pub trait HardEngine: Sized + Send + 'static {
-    /// State of the engine.
-    type State: Clone + PartialEq + Serialize + DeserializeOwned + Send;
+pub trait HardEngine: Engine<Stop = EventDrivenStop> {
     /// Drive, which brings variables.
     type Drive: BaseDrive;
 
@@ -40,26 +36,15 @@ pub trait HardEngine: Sized + Send + 'static {
     ///
     /// # Errors
     /// Parameters that no law is made of.
-    fn new(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self>;
+    fn from_values(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self>;
     /// Takes the inputs at `time` \[s\] for a step of `duration` \[s\].
     fn set_target(&mut self, time: f64, duration: f64, values: &Values);
-    /// Handles all events up to `end_time` \[s\].
-    ///
-    /// # Errors
-    /// No headway, or too many events.
-    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> std::result::Result<(), EventDrivenStop>;
     /// Motion of a disk at `time` \[s\].
     fn disk_at(&self, time: f64, disk: usize) -> DiskMotion;
     /// Sums since the start.
     fn counts(&self) -> Counts;
     /// Motion of the base at `time` \[s\].
     fn base_at(&self, time: f64) -> Motion;
-    /// A copy of the state.
-    fn state(&self) -> Self::State;
-    /// Whether `state` can be one of this run.
-    fn fits(&self, state: &Self::State) -> bool;
-    /// Goes to a state.
-    fn restore(&mut self, state: &Self::State);
 }
 
 impl HardBase for AtRandomPhase {
@@ -82,7 +67,6 @@ impl HardBase for AtRandomPhase {
 }
 
 impl<W: HardBase> HardEngine for HardDisks<W> {
-    type State = EventDrivenState<Walls<W>>;
     type Drive = W::Drive;
 
     fn parameters<M>() -> Vec<Row<M>> {
@@ -95,7 +79,7 @@ impl<W: HardBase> HardEngine for HardDisks<W> {
         )]
     }
 
-    fn new(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self> {
+    fn from_values(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self> {
         let law = hard_law(masses, values)?;
         let base = W::from_values(start_time, values)?;
         let lift = base.motion(start_time).displacement;
@@ -130,10 +114,6 @@ impl<W: HardBase> HardEngine for HardDisks<W> {
         }
     }
 
-    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> std::result::Result<(), EventDrivenStop> {
-        self.advance_within(end_time, &mut Unobserved, budget)
-    }
-
     fn disk_at(&self, time: f64, disk: usize) -> DiskMotion {
         self.sample_at(time, disk)
     }
@@ -144,17 +124,5 @@ impl<W: HardBase> HardEngine for HardDisks<W> {
 
     fn base_at(&self, time: f64) -> Motion {
         self.state().boundary.base.motion(time)
-    }
-
-    fn state(&self) -> Self::State {
-        Self::state(self).clone()
-    }
-
-    fn fits(&self, state: &Self::State) -> bool {
-        Self::fits(self, state)
-    }
-
-    fn restore(&mut self, state: &Self::State) {
-        Self::restore(self, state);
     }
 }

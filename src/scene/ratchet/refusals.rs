@@ -2,6 +2,7 @@
 
 use crate::engine::event_driven::{EventDrivenStop, Partner};
 use crate::scene::Error;
+use crate::scene::hard_disks::refused_step;
 
 use super::NAME;
 
@@ -11,28 +12,13 @@ pub const MOST_ACCELERATION: f64 = 1e14;
 
 /// What stopped the engine, as the error of a step.
 pub fn refusal(stop: EventDrivenStop) -> Error {
-    let stop = match stop {
-        EventDrivenStop::NoHeadway(stop) => stop,
-        EventDrivenStop::TooManyEvents { time, most } => {
-            return Error::too_much_work(NAME, time, format!("more than {most} events"));
-        }
+    let partner = |partner| match partner {
+        Partner::Wall(0) => "the base",
+        Partner::Wall(_) => "the ceiling",
+        _ => "nobody: it is too fast",
     };
-    let disk = stop.disk + 1;
-    let partner = match stop.partner {
-        Partner::Disk(other) => format!("disk {}", other + 1),
-        Partner::Wall(0) => "the base".into(),
-        Partner::Wall(_) => "the ceiling".into(),
-        Partner::Shell => "nobody: it is too fast".into(),
-    };
-    Error::Step {
-        model: NAME,
-        time: stop.time,
-        what: format!(
-            "no headway: {} events in {:e} s, the last of disk {disk} with {partner}",
-            stop.events, stop.duration
-        ),
-        remedy: "Inelastic collapse? Raise collision.minimum_normal_velocity or collision.restitution.".into(),
-    }
+    let remedy = "Inelastic collapse? Raise collision.minimum_normal_velocity or collision.restitution.";
+    refused_step(NAME, stop, partner, remedy)
 }
 
 /// The inputs move the base so that disks cannot follow it.

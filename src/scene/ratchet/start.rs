@@ -17,7 +17,7 @@ const PITCH: f64 = 1.1;
 /// Narrowest period over the largest radius.
 const NARROWEST: f64 = 12.0;
 
-/// Teeth that a disk may cover at most: each is searched for every first hit.
+/// Teeth that a disk may cover at most: every search of a first hit goes through all of them.
 const MOST_TEETH_UNDER_A_DISK: f64 = 1000.0;
 
 /// Disks above this many rows over the base belong to the topmost cells.

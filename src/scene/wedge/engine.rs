@@ -1,12 +1,9 @@
 //! What the wedge scene needs of an engine.
 
-use serde::Serialize;
-use serde::de::DeserializeOwned;
-
 use crate::drive::Motion;
-use crate::engine::{DiskMotion, WorkBudget};
+use crate::engine::{DiskMotion, Engine};
 use crate::error::are_sane;
-use crate::scene::{Result, Row, Values};
+use crate::scene::{Error, Result, Row, Values};
 
 /// Energies per mass of the disk \[J/kg\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,19 +37,11 @@ pub struct AtStart {
     pub acceleration: &'static [&'static str],
 }
 
-/// A scene around an engine E.
-pub trait Around<E> {
-    /// The engine.
-    fn engine(&self) -> &E;
-}
-
-/// A way to advance one disk in a wedge.
+/// An engine of one disk in a wedge as the scene presents it.
 ///
-/// Contract: the trajectory does not depend on the times to which it is advanced or at which it is observed. The time of an
-/// observation is that to which it was advanced last. Positions count from the vertex of the wedge with its base at rest.
-pub trait WedgeEngine: Sized + Send + 'static {
-    /// Everything that changes with time.
-    type State: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static;
+/// The time of an observation is that to which the engine was advanced last. Positions count from the vertex of the wedge
+/// with its base at rest.
+pub trait WedgeEngine: Engine {
     /// Name on the command line.
     const NAME: &'static str;
     /// Name of the drive.
@@ -68,23 +57,20 @@ pub trait WedgeEngine: Sized + Send + 'static {
     fn contact_rows<M>() -> Vec<Row<M>>;
     /// Parameters and inputs of the drive.
     fn drive_rows<M>() -> Vec<Row<M>>;
-    /// Outputs that other engines do not have.
-    fn own_outputs<M: Around<Self>>() -> Vec<Row<M>>;
+    /// Outputs that other engines do not have, of a scene M that holds this one.
+    fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>>;
 
     /// The disk at the start.
     ///
     /// # Errors
     /// A parameter out of range, by name.
-    fn new(start_time: f64, values: &Values) -> Result<Self>;
+    fn from_values(start_time: f64, values: &Values) -> Result<Self>;
 
     /// Takes the inputs at `time` \[s\] for a step of `duration` \[s\].
     fn set_target(&mut self, time: f64, duration: f64, values: &Values);
 
-    /// Advances to `end_time` \[s\] and takes the work that it costs off `budget`.
-    ///
-    /// # Errors
-    /// It cannot be done; the state is then of no use.
-    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<()>;
+    /// The refusal of a step that the engine could not finish.
+    fn refused_step(stop: Self::Stop) -> Error;
 
     /// Motion of the disk at `time` \[s\].
     fn disk_at(&self, time: f64) -> DiskMotion;
@@ -97,13 +83,4 @@ pub trait WedgeEngine: Sized + Send + 'static {
 
     /// Vertical impulse of the base on the disk since the start, per mass of the disk \[N.s/kg\].
     fn impulse(&self) -> f64;
-
-    /// A copy of the present state.
-    fn state(&self) -> Self::State;
-
-    /// Goes to a state at `time` \[s\].
-    ///
-    /// # Errors
-    /// The state cannot be one of this engine, which is then as before.
-    fn restore(&mut self, state: &Self::State, time: f64) -> Result<()>;
 }

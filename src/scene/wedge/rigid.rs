@@ -5,31 +5,29 @@ use std::f64::consts::TAU;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-use crate::collision::{CollisionLaw, Dashpot, TabulatedDashpot, VelocityFloor};
+use crate::collision::{Dashpot, TabulatedDashpot, VelocityFloor};
 use crate::contact::LinearDashpot;
-use crate::drive::{AtRandomPhase, BaseMotion, FirstHit, Motion, RandomPhase, Sine};
-use crate::engine::wedge::{DiskInWedge, NO_PROGRESS, Side, Start, Stuck, WedgeSetup, WedgeState, WedgeStop};
-use crate::engine::{DiskMotion, WorkBudget};
+use crate::drive::{AtRandomPhase, FirstHit, Motion, RandomPhase, Sine};
+use crate::engine::DiskMotion;
+use crate::engine::wedge::{DiskInWedge, NO_PROGRESS, Side, Start, Stuck, WedgeSetup, WedgeStop};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::{Error, Kind, Result, Row, Unit, Values};
 
-use super::engine::{Around, AtStart, SpecificEnergies, WedgeEngine};
+use super::engine::{AtStart, SpecificEnergies, WedgeEngine};
 use super::rows::{self, NAME};
 
 /// The map of P 6.3.
 ///
 /// There is no velocity floor: a slow disk meets the base near its top, with `v_b` of order `sqrt(|v_n| A omega_b)`, and
 /// is thrown up again, so that impacts do not pile up whatever the restitution.
-#[derive(Debug)]
-pub struct Map(DiskInWedge<TabulatedDashpot, AtRandomPhase>);
+pub type Map = DiskInWedge<TabulatedDashpot, AtRandomPhase>;
 
 /// The wedge that moves with a drive D.
 ///
 /// A disk that comes to rest on a moving wall does so by infinitely many impacts in finite time. The velocity floor ends
 /// that: no impact leaves slower than `collision.minimum_normal_velocity`, and how many it concerned is an output. A
 /// disk at rest is thus one that bounces by v^2 / (2 g); its friction and the force on the base are right in the mean.
-#[derive(Debug)]
-pub struct EventDriven<D>(DiskInWedge<VelocityFloor<TabulatedDashpot>, D>);
+pub type EventDriven<D> = DiskInWedge<VelocityFloor<TabulatedDashpot>, D>;
 
 /// The impact law of a disk of unit mass at a wall, which depends on e_n, kappa and mu alone.
 fn law(values: &Values) -> Result<TabulatedDashpot> {
@@ -99,76 +97,35 @@ fn refused_step(stop: WedgeStop, remedy: &str) -> Error {
     }
 }
 
-fn energies_at<L: CollisionLaw, B: BaseMotion>(disk: &DiskInWedge<L, B>, time: f64) -> SpecificEnergies {
-    let (motion, sums, setup) = (disk.sample_at(time), disk.state().sums, disk.setup());
-    let surface_velocity = setup.radius * motion.angular_velocity;
-    SpecificEnergies {
-        kinetic: 0.5 * (motion.velocity.norm_squared() + 0.5 * surface_velocity * surface_velocity),
-        potential: setup.gravity * motion.position.y,
-        input: sums.input,
-        lost: sums.lost,
-    }
-}
-
-/// What both engines do alike with their disk.
-macro_rules! as_its_disk {
-    ($walls:ty) => {
+/// What both engines do alike.
+macro_rules! observations {
+    () => {
         fn disk_at(&self, time: f64) -> DiskMotion {
-            self.0.sample_at(time)
+            self.sample_at(time)
         }
 
         fn base_at(&self, time: f64) -> Motion {
-            self.0.base(time)
+            self.base(time)
         }
 
         fn energies_at(&self, time: f64) -> SpecificEnergies {
-            energies_at(&self.0, time)
+            let (motion, sums, setup) = (self.sample_at(time), self.state().sums, self.setup());
+            let surface_velocity = setup.radius * motion.angular_velocity;
+            SpecificEnergies {
+                kinetic: 0.5 * (motion.velocity.norm_squared() + 0.5 * surface_velocity * surface_velocity),
+                potential: setup.gravity * motion.position.y,
+                input: sums.input,
+                lost: sums.lost,
+            }
         }
 
         fn impulse(&self) -> f64 {
-            self.0.state().sums.velocity
-        }
-
-        fn state(&self) -> WedgeState<$walls> {
-            self.0.state().clone()
-        }
-
-        fn restore(&mut self, state: &WedgeState<$walls>, time: f64) -> Result<()> {
-            restore(&mut self.0, state, time)
+            self.state().sums.velocity
         }
     };
 }
 
-/// Goes to a state if it can be one.
-fn restore<L: CollisionLaw, B: BaseMotion>(
-    disk: &mut DiskInWedge<L, B>,
-    state: &WedgeState<B>,
-    time: f64,
-) -> Result<()> {
-    let numbers = [
-        state.time,
-        state.position.x,
-        state.position.y,
-        state.velocity.x,
-        state.velocity.y,
-        state.surface_velocity,
-        state.arc_length,
-        state.base.displacement,
-        state.base.velocity,
-    ];
-    let in_flight = state.time <= time && time < state.time + state.delay;
-    if !(numbers.iter().all(|number| number.is_finite()) && state.delay >= 0.0 && in_flight) {
-        return Err(Error::state(
-            "its flight is none that a disk in a wedge can be on",
-            "Restore states of the same scene and parameters only.",
-        ));
-    }
-    disk.restore(state);
-    Ok(())
-}
-
 impl WedgeEngine for Map {
-    type State = WedgeState<AtRandomPhase>;
     const NAME: &'static str = "map";
     const DRIVE: &'static str = <Sine as BaseDrive>::NAME;
     const IDENTIFIER: &'static str = "jostle_wedge_map";
@@ -197,13 +154,11 @@ impl WedgeEngine for Map {
         rows
     }
 
-    fn own_outputs<M: Around<Self>>() -> Vec<Row<M>> {
-        vec![collisions(|scene: &M| {
-            counted(scene.engine().0.state().sums.collisions)
-        })]
+    fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>> {
+        vec![collisions(|scene: &M| counted(scene.as_ref().state().sums.collisions))]
     }
 
-    fn new(start_time: f64, values: &Values) -> Result<Self> {
+    fn from_values(start_time: f64, values: &Values) -> Result<Self> {
         let amplitude = values.real("drive.amplitude");
         let mut generator = Pcg64::seed_from_u64(values.integer("seed") as u64);
         let (height, sideways) = rows::throw(values, &mut generator);
@@ -216,25 +171,21 @@ impl WedgeEngine for Map {
             height,
             sideways,
         };
-        let disk = DiskInWedge::new(setup, law(values)?, walls, start);
-        Ok(Self(disk))
+        Ok(Self::new(setup, law(values)?, walls, start))
     }
 
     fn set_target(&mut self, _time: f64, _duration: f64, _values: &Values) {}
 
-    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<()> {
-        self.0
-            .advance_within(end_time, budget)
-            .map_err(|stop| refused_step(stop, "Raise collision.restitution or drive.amplitude."))
+    fn refused_step(stop: WedgeStop) -> Error {
+        refused_step(stop, "Raise collision.restitution or drive.amplitude.")
     }
 
-    as_its_disk!(AtRandomPhase);
+    observations!();
 }
 
 const FLOOR: &str = "collision.minimum_normal_velocity";
 
 impl<D: BaseDrive + FirstHit> WedgeEngine for EventDriven<D> {
-    type State = WedgeState<D>;
     const NAME: &'static str = "event-driven";
     const DRIVE: &'static str = D::NAME;
     const IDENTIFIER: &'static str = "jostle_wedge_event_driven";
@@ -258,17 +209,17 @@ impl<D: BaseDrive + FirstHit> WedgeEngine for EventDriven<D> {
         rows::drive::<M, D>()
     }
 
-    fn own_outputs<M: Around<Self>>() -> Vec<Row<M>> {
+    fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>> {
         let slow = "Collisions among them that left the wall at collision.minimum_normal_velocity";
         vec![
-            collisions(|scene: &M| counted(scene.engine().0.state().sums.collisions)),
+            collisions(|scene: &M| counted(scene.as_ref().state().sums.collisions)),
             Row::count_output("slow_collisions", slow, |scene: &M| {
-                counted(scene.engine().0.state().sums.slow_collisions)
+                counted(scene.as_ref().state().sums.slow_collisions)
             }),
         ]
     }
 
-    fn new(start_time: f64, values: &Values) -> Result<Self> {
+    fn from_values(start_time: f64, values: &Values) -> Result<Self> {
         let mut generator = Pcg64::seed_from_u64(values.integer("seed") as u64);
         let (height, sideways) = rows::throw(values, &mut generator);
         let floor = values.real(FLOOR);
@@ -279,21 +230,19 @@ impl<D: BaseDrive + FirstHit> WedgeEngine for EventDriven<D> {
             height,
             sideways,
         };
-        Ok(Self(DiskInWedge::new(setup, law, walls, start)))
+        Ok(Self::new(setup, law, walls, start))
     }
 
     fn set_target(&mut self, time: f64, duration: f64, values: &Values) {
         if D::STEERED {
-            self.0.steer(time, |walls| walls.set_target(time, duration, values));
+            self.steer(time, |walls| walls.set_target(time, duration, values));
         }
     }
 
-    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<()> {
+    fn refused_step(stop: WedgeStop) -> Error {
         let remedy = format!("Inelastic collapse? Raise {FLOOR} or collision.restitution.");
-        self.0
-            .advance_within(end_time, budget)
-            .map_err(|stop| refused_step(stop, &remedy))
+        refused_step(stop, &remedy)
     }
 
-    as_its_disk!(D);
+    observations!();
 }

@@ -4,27 +4,27 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use crate::drive::Motion;
-use crate::engine::dem::{GridState, SoftDiskSetup, TimeStepLimits, Verlet, verlet};
+use crate::engine::DiskMotion;
+use crate::engine::dem::{Breakdown, SoftDiskSetup, TimeStepLimits, Verlet};
 use crate::engine::wedge::{Side, WedgeFrame};
-use crate::engine::{DiskMotion, Engine, WorkBudget};
 use crate::geometry::{Disk, Vector2, Wall, clockwise};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::names;
 use crate::scene::soft_disks::{STEP_OF_ONE_DISK, chosen_time_step, contact_laws, refused_step};
 use crate::scene::{Error, Result, Row, Unit, Values};
 
-use super::engine::{Around, AtStart, SpecificEnergies, WedgeEngine};
+use super::engine::{AtStart, SpecificEnergies, WedgeEngine};
 use super::rows::{self, NAME};
 
 /// A soft disk in a wedge that moves with the drive D.
-#[derive(Debug)]
-pub struct Soft<D> {
-    engine: Verlet<D>,
-    mass: f64,
+pub type Soft<D> = Verlet<D>;
+
+/// The mass of the only disk \[kg\].
+fn mass<D: BaseDrive>(engine: &Soft<D>) -> f64 {
+    engine.setup().masses[0]
 }
 
 impl<D: BaseDrive> WedgeEngine for Soft<D> {
-    type State = GridState<D, verlet::Disks>;
     const NAME: &'static str = "molecular-dynamics";
     const DRIVE: &'static str = D::NAME;
     const IDENTIFIER: &'static str = "jostle_wedge_molecular_dynamics";
@@ -66,7 +66,7 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
         rows::drive::<M, D>()
     }
 
-    fn own_outputs<M: Around<Self>>() -> Vec<Row<M>> {
+    fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>> {
         let elastic = "Energy in the normal and tangential springs of closed contacts";
         vec![
             Row::calculated(
@@ -74,19 +74,19 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
                 Unit::SECOND,
                 1e-7,
                 "Time step in use",
-                |scene: &M| scene.engine().engine.setup().time_step,
+                |scene: &M| scene.as_ref().setup().time_step,
             )
             .depending_on(&names(&[STEP_OF_ONE_DISK, D::FREQUENCY])),
             Row::output("energy.elastic", Unit::JOULE, 1e-3, elastic, |scene: &M| {
-                scene.engine().engine.elastic_energy()
+                scene.as_ref().elastic_energy()
             }),
             Row::count_output("contacts", "Walls that the disk touches", |scene: &M| {
-                i64::from(scene.engine().engine.now().contacts)
+                i64::from(scene.as_ref().now().contacts)
             }),
         ]
     }
 
-    fn new(start_time: f64, values: &Values) -> Result<Self> {
+    fn from_values(start_time: f64, values: &Values) -> Result<Self> {
         let (frame, radius, mass) = (
             rows::frame(values),
             values.real("disk.radius"),
@@ -114,21 +114,19 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
         engine.set_motion(|disks| {
             [disks.velocity[0], disks.velocity[1]] = (sideways * clockwise(&up)).into();
         });
-        Ok(Self { engine, mass })
+        Ok(engine)
     }
 
     fn set_target(&mut self, time: f64, duration: f64, values: &Values) {
-        self.engine.drive_mut().set_target(time, duration, values);
+        self.drive_mut().set_target(time, duration, values);
     }
 
-    fn advance_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<()> {
-        self.engine
-            .advance_within(end_time, budget)
-            .map_err(|breakdown| refused_step(NAME, breakdown))
+    fn refused_step(breakdown: Breakdown) -> Error {
+        refused_step(NAME, breakdown)
     }
 
     fn disk_at(&self, _time: f64) -> DiskMotion {
-        let now = self.engine.observables();
+        let now = self.observables();
         let ([x, y, angle], [vx, vy, angular_velocity]) = (now.positions[0], now.velocities[0]);
         DiskMotion {
             position: Vector2::new(x, y),
@@ -139,38 +137,22 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
     }
 
     fn base_at(&self, _time: f64) -> Motion {
-        self.engine.now().base
+        self.now().base
     }
 
     fn energies_at(&self, _time: f64) -> SpecificEnergies {
-        let now = self.engine.now();
+        let (now, mass) = (self.now(), mass(self));
         SpecificEnergies {
-            kinetic: self.engine.kinetic_energy() / self.mass,
-            potential: self.engine.potential_energy() / self.mass,
-            input: now.energy_input / self.mass,
-            lost: now.energy_lost / self.mass,
+            kinetic: self.kinetic_energy() / mass,
+            potential: self.potential_energy() / mass,
+            input: now.energy_input / mass,
+            lost: now.energy_lost / mass,
         }
     }
 
     fn impulse(&self) -> f64 {
-        let impulse: f64 = (0..2).map(|wall| self.engine.impulse_of_wall(wall)[1]).sum();
-        impulse / self.mass
-    }
-
-    fn state(&self) -> Self::State {
-        self.engine.state().clone()
-    }
-
-    fn restore(&mut self, state: &Self::State, time: f64) -> Result<()> {
-        if !self.engine.fits(state, time) {
-            return Err(Error::state(
-                "it is not that of one disk and two walls",
-                "Restore states of the same scene and parameters only.",
-            ));
-        }
-        self.engine
-            .restore(state, time)
-            .map_err(|breakdown| refused_step(NAME, breakdown))
+        let impulse: f64 = (0..2).map(|wall| self.impulse_of_wall(wall)[1]).sum();
+        impulse / mass(self)
     }
 }
 

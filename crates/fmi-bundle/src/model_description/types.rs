@@ -85,7 +85,7 @@ pub fn type_definitions(xml: &mut Xml, variables: &[Variable], version: Version)
     })
 }
 
-/// Attributes that say what a unit measures; a variable repeats those of its type for importers that do not look there.
+/// Attributes that say what a unit measures; a variable repeats those of its type for importers that do not read that.
 pub fn of_unit(unit: Unit) -> Attributes {
     let mut list = Attributes::new();
     list.extend(unit.quantity.map(|name| ("quantity", name.into())));

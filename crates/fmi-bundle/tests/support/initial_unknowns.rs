@@ -158,7 +158,7 @@ fn point(table: &Table, random: &mut Pcg64) -> Vec<Value> {
     for variable in table.settable() {
         let (chosen, factor) = (even(), even());
         let value = match (&variable.kind, variable.start()) {
-            // Of all sizes: time steps too long are refused, and small lengths are told apart from zero.
+            // Of all sizes: time steps too long are refused, and small lengths are distinguished from zero.
             (Kind::Real(quantity), Value::Real(0.0)) if chosen < 0.6 => {
                 Value::Real(quantity.nominal * 10_f64.powf(2.0 - 6.0 * factor))
             }

@@ -1,4 +1,4 @@
-//! What `fmi2Component` and `fmi3Instance` point to, and the way in and out of every call.
+//! What `fmi2Component` and `fmi3Instance` point to, and how every call enters and leaves it.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::null_mut;
@@ -90,7 +90,7 @@ pub unsafe fn free(pointer: Opaque, version: Version) {
 }
 
 impl Entry {
-    /// The way into an instance: checks the pointer, keeps others out, catches panics, logs what went wrong. Shut inside of
+    /// Enters an instance: checks the pointer, locks it, catches panics, logs what went wrong. Shut inside of
     /// an intermediate update.
     ///
     /// # Safety
@@ -109,7 +109,7 @@ impl Entry {
         .unwrap_or(Status::Error)
     }
 
-    /// The way in for calls that only read values, which are allowed inside of an intermediate update.
+    /// Enters for calls that only read values, which are allowed inside of an intermediate update.
     ///
     /// # Safety
     /// As for [`Entry::change`].
@@ -123,7 +123,7 @@ impl Entry {
         .unwrap_or(Status::Error)
     }
 
-    /// The way back in for a step that was left for an intermediate update.
+    /// Enters again for a step that was left for an intermediate update.
     ///
     /// # Safety
     /// As for [`Entry::change`].
@@ -161,7 +161,7 @@ impl Component {
     /// Notes how the step from `asked.0` by `asked.1` ended.
     ///
     /// A step that the model cannot do is discarded, so that the importer may try a shorter one. Asked for the very same
-    /// step again, the answer is an error: there are importers that otherwise repeat a discarded step for ever.
+    /// step again, the answer is an error: there are importers that otherwise repeat a discarded step without end.
     ///
     /// # Errors
     /// That of `done`, with [`Error::Call`] in the place of a repeated [`Error::Step`].

@@ -15,7 +15,7 @@ pub struct Listener {
 
 impl Listener {
     /// Reports an event at `time` \[s\]. Gives the time at which the importer wants the step to end, if it wants that and may;
-    /// a wish of which it was told that it is in vain (`canReturnEarly` false) is none.
+    /// a request is ignored where `canReturnEarly` was false.
     pub fn report(&self, time: f64) -> Option<f64> {
         let (mut wanted, mut until) = (FALSE, time);
         // SAFETY: the importer's own callback with its own environment; the pointers are to values that outlive the call.

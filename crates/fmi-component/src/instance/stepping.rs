@@ -88,7 +88,8 @@ impl Instance {
         self.end_part(step, reached)
     }
 
-    /// Whether a step is under way of which an event is reported: anything but reading would pull the ground from under it.
+    /// Whether a step is under way of which an event is reported: anything but reading would change the state that the step
+    /// resumes from.
     pub fn is_stepping(&self) -> bool {
         self.under_way.is_some()
     }

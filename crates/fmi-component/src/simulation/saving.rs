@@ -36,7 +36,7 @@ impl<M: Model> Simulation<M> {
         }
     }
 
-    /// Goes back (or on) to a saved state; parameters that were others then come back too.
+    /// Goes back (or on) to a saved state and restores its parameters.
     ///
     /// # Errors
     /// The state does not fit this model or its structure, or is damaged. The simulation is then as before.
@@ -59,7 +59,7 @@ impl<M: Model> Simulation<M> {
         Ok(())
     }
 
-    /// As [`Simulation::restore`], with the model built anew: for one that a panic may have left in pieces.
+    /// As [`Simulation::restore`], with the model built anew: for one that a panic may have left inconsistent.
     ///
     /// # Errors
     /// As [`Simulation::restore`].
@@ -106,7 +106,7 @@ impl<M: Model> Simulation<M> {
         self.restore(&saved_bytes::read(bytes, &self.owner())?)
     }
 
-    /// As [`Simulation::restore_bytes`], with the model built anew: for one that a panic may have left in pieces.
+    /// As [`Simulation::restore_bytes`], with the model built anew: for one that a panic may have left inconsistent.
     ///
     /// # Errors
     /// As [`Simulation::restore_bytes`].

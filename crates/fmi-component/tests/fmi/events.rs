@@ -64,7 +64,7 @@ fn steps_end_at_events_and_give_the_bits_of_a_run_without() {
     let times = run(&client, 1.0, 0.3);
     assert_eq!(plain.step(0.0, 1.0), Ok);
     assert_eq!(client.outputs(), plain.outputs());
-    // The signs of the displacement on the grid of 1 ms, seen by an importer without event mode.
+    // The signs of the displacement on the grid of 1 ms, observed by an importer without event mode.
     let watch = Client::three().ready(RAISED);
     let heights: Vec<_> = (0..1000)
         .map(|index| {

@@ -1,4 +1,4 @@
-//! Intermediate update of FMI 3.0: an importer is told of every event inside of a step, and may look and end the step.
+//! Intermediate update of FMI 3.0: every event inside of a step is reported to the importer, which may read values and end the step.
 
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};
@@ -140,7 +140,7 @@ fn a_step_ends_early_when_that_is_asked_for() {
     let (first, third) = (times[0], times[2]);
     let between = f64::midpoint(times[1], third);
     let late = 1.0_f64;
-    // What is asked for at the first event, at the second, and where the step ends with how many events told.
+    // What is asked for at the first event, at the second, and where the step ends after how many reported events.
     let cases = [
         (Some(first), None, first, 1),
         (Some(0.0), None, first, 1),

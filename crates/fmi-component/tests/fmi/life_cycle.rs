@@ -185,12 +185,12 @@ fn log_categories_are_respected() {
     assert_eq!(client.step(0.0, 0.1), Error);
     assert!(
         client.log.borrow().is_empty(),
-        "FMI 3.0 without logging tells nothing: {:?}",
+        "FMI 3.0 without logging reports nothing: {:?}",
         client.log
     );
     let two = Client::two();
     assert_eq!(two.step(0.0, 0.1), Error);
-    assert_eq!(two.log.borrow().len(), 1, "FMI 2.0 tells errors in any case");
+    assert_eq!(two.log.borrow().len(), 1, "FMI 2.0 reports errors in any case");
     assert_eq!(
         unsafe { fmi3SetDebugLogging(client.pointer, 1, 0, std::ptr::null()) },
         Ok

@@ -1,4 +1,4 @@
-//! An importer that listens: what intermediate updates tell it, what it does then, and what it is told of them by others.
+//! An importer that listens: what intermediate updates report to it, and what it does then.
 
 use std::cell::{Cell, RefCell};
 use std::ffi::c_char;
@@ -31,7 +31,7 @@ pub struct Listener {
     pub log: Log,
 }
 
-/// An instance that tells, in step mode unless it uses event mode.
+/// An instance that reports its events, in step mode unless it uses event mode.
 pub struct ListeningClient {
     pub client: Client,
     pub listener: Box<Listener>,

@@ -56,7 +56,7 @@ impl Shared {
     }
 }
 
-/// Whoever reads is in the way of a step that comes back from an intermediate update, which waits.
+/// A step that resumes after an intermediate update waits until other threads have read.
 #[test]
 fn other_threads_may_only_read_during_an_intermediate_update() {
     let (inside, height) = (Arc::new(AtomicBool::new(false)), reference("body.position[1]"));

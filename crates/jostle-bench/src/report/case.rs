@@ -1,6 +1,7 @@
 //! What a work-precision diagram is made of: a case, its curves, and one run of one point.
 
 use std::error::Error as StdError;
+use std::sync::OnceLock;
 
 use cpu_time::ProcessTime;
 use jostle::scene::{Model, Simulation, Value};
@@ -92,6 +93,15 @@ impl Stopwatch {
     pub fn seconds(&self) -> f64 {
         self.seconds
     }
+}
+
+/// What `cell` holds, computed the first time.
+pub fn known<T>(cell: &OnceLock<T>, compute: impl FnOnce() -> Result<T, Trouble>) -> Result<&T, Trouble> {
+    if let Some(known) = cell.get() {
+        return Ok(known);
+    }
+    let computed = compute()?;
+    Ok(cell.get_or_init(|| computed))
 }
 
 /// `count` settings from `first` on, each `ratio` times the one before.

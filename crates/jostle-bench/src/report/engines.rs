@@ -9,7 +9,7 @@ use jostle::engine::dem::{self, Breakdown, EventLocated, FixedGrid, SoftDiskSetu
 use jostle::geometry::Disk;
 
 /// An engine that advances soft disks over a sine base.
-pub trait SoftEngine: Clone + 'static {
+pub trait SoftEngine: Engine<Stop = Breakdown> + Clone {
     /// Name of its curves.
     const METHOD: &'static str;
     /// Passes over all contacts in a step.
@@ -17,9 +17,6 @@ pub trait SoftEngine: Clone + 'static {
 
     /// Disks at `rates` (x, y, spin), whose contacts hold nothing yet.
     fn start(setup: SoftDiskSetup, disks: &[Disk], drive: Sine, rates: &[[f64; 3]]) -> Self;
-
-    /// Advances to `end_time` \[s\].
-    fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown>;
 
     /// x, y and angle of each of `count` disks.
     fn places(&self, count: usize) -> Vec<[f64; 3]>;
@@ -39,10 +36,6 @@ impl<I: Integrator> SoftEngine for FixedGrid<PredictorCorrector<I>, Sine> {
         let mut engine = Self::new(setup, disks, drive);
         engine.set_motion(|disks| disks.velocity[..3 * rates.len()].copy_from_slice(rates.as_flattened()));
         engine
-    }
-
-    fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
-        Engine::advance_to(self, end_time)
     }
 
     fn places(&self, count: usize) -> Vec<[f64; 3]> {
@@ -66,10 +59,6 @@ impl SoftEngine for Located {
         let mut engine = Self::new(setup, disks, drive);
         engine.set_motion(|disks| disks.velocities.copy_from_slice(rates));
         engine
-    }
-
-    fn advance_to(&mut self, end_time: f64) -> Result<(), Breakdown> {
-        Engine::advance_to(self, end_time)
     }
 
     fn places(&self, count: usize) -> Vec<[f64; 3]> {

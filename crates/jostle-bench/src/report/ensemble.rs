@@ -3,15 +3,15 @@
 //! The mean over disks and time of the squared angular velocity, after settling, for the same seeds by every method.
 //! The bias is the mean over the seeds of the difference to the reference; its bar is the standard error of that mean.
 
-use std::cell::OnceCell;
 use std::rc::Rc;
+use std::sync::OnceLock;
 
 use jostle::drive::Sine;
 use jostle::scene::packing::PackingOnSine;
 use jostle::scene::packing::event_driven::HardPackingOnSine;
 use jostle::scene::{Model, Simulation, Value};
 
-use super::case::{Case, Done, Point, Stopwatch, Trouble, count, ladder, mean_and_error, number};
+use super::case::{Case, Done, Point, Stopwatch, Trouble, count, known, ladder, mean_and_error, number};
 
 const DISKS: u32 = 60;
 const GAMMA: f64 = 4.0;
@@ -32,19 +32,19 @@ struct Ensemble {
 
 /// Soft disks by step; rules against inelastic collapse by threshold.
 pub fn cases() -> Vec<Case> {
-    let reference: Rc<OnceCell<Vec<f64>>> = Rc::default();
+    let reference: Rc<OnceLock<Vec<f64>>> = Rc::default();
     let soft = ladder(5e-5, 0.5, 4).map(|step| {
         let reference = Rc::clone(&reference);
         Point::new("velocity Verlet", step, move |watch: &mut Stopwatch| {
-            let exact = fill(&reference, || Ok(soft(5e-5 / 16.0, &mut Stopwatch::default())?.means))?;
+            let exact = known(&reference, || Ok(soft(5e-5 / 16.0, &mut Stopwatch::default())?.means))?;
             Ok(compared(&soft(step, watch)?, exact))
         })
     });
-    let rule_reference: Rc<OnceCell<Vec<f64>>> = Rc::default();
+    let rule_reference: Rc<OnceLock<Vec<f64>>> = Rc::default();
     let rules = ladder(1e-3, 0.1, 6).chain([0.0]).map(|time| {
         let reference = Rc::clone(&rule_reference);
         Point::new("contact time", time, move |watch: &mut Stopwatch| {
-            let exact = fill(&reference, || Ok(hard(1e-9, &mut Stopwatch::default())?.means))?;
+            let exact = known(&reference, || Ok(hard(1e-9, &mut Stopwatch::default())?.means))?;
             Ok(compared(&hard(time, watch)?, exact))
         })
     });
@@ -69,15 +69,6 @@ pub fn cases() -> Vec<Case> {
             points: rules.collect(),
         },
     ]
-}
-
-/// What `cell` holds, computed the first time.
-fn fill(cell: &OnceCell<Vec<f64>>, compute: impl FnOnce() -> Result<Vec<f64>, Trouble>) -> Result<&Vec<f64>, Trouble> {
-    if let Some(known) = cell.get() {
-        return Ok(known);
-    }
-    let computed = compute()?;
-    Ok(cell.get_or_init(|| computed))
 }
 
 fn soft(time_step: f64, watch: &mut Stopwatch) -> Result<Ensemble, Trouble> {

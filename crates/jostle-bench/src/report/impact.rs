@@ -171,7 +171,7 @@ pub fn by_tolerance(tolerances: impl Iterator<Item = f64>) -> Case {
     }
 }
 
-/// The disk just before touch, at `place` of a time step; and when to look at it.
+/// The disk just before touch, at `place` of a time step; and when to sample it.
 fn engine<E: SoftEngine>(hit: Hit, step: f64, place: f64) -> (E, f64) {
     let setup = SoftDiskSetup {
         laws: hit.laws(),

@@ -2,7 +2,7 @@
 //! between the two walls of a shaken wedge, to which `supports` adds the engine of a disk on two supports.
 //!
 //! On a plane at height b(t): `m y'' = -k_n (y - b) - gamma_n (y' - b') - m g`. In a wedge with walls at slopes
-//! +-alpha and without tilt the disk moves up and down by symmetry; both normals and both skins act:
+//! +-alpha and without tilt the disk moves up and down by symmetry; both normal and both tangential springs act:
 //! `k = 2 (k_n cos^2 alpha + k_t sin^2 alpha)`, damping `2 gamma_n cos^2 alpha`. None has an event, so all show the
 //! order of the integrator itself.
 
@@ -70,7 +70,7 @@ pub struct Oscillator {
     pub mass: f64,
     /// Of all contacts together \[N/m\].
     stiffness: f64,
-    /// Of the normals alone, which carry the weight before the skins are stretched \[N/m\].
+    /// Of the normals alone, which carry the weight before the tangential springs are stretched \[N/m\].
     normal_stiffness: f64,
     /// Of all contacts together \[kg/s\].
     damping: f64,
@@ -99,7 +99,7 @@ impl Oscillator {
         PERIODS * self.period()
     }
 
-    /// How far the weight presses the disk in while the skins are not stretched \[m\].
+    /// How far the weight presses the disk in while the tangential springs are not stretched \[m\].
     fn sag(&self) -> f64 {
         self.mass * GRAVITY / self.normal_stiffness
     }

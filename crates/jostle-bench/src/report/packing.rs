@@ -1,6 +1,6 @@
 //! The 60-disk packing over a time short of chaos, against the same packing at a much smaller step.
 //!
-//! The start is a settled, shaken packing with its velocities and with skins that hold nothing yet, so that other
+//! The start is a settled, shaken packing with its velocities and with tangential springs that are not stretched yet, so that other
 //! programs can start from it too: `packing60.txt`, in lines of `radius x y vx vy omega` after `count width height`.
 //! The bottom is at `A - A cos omega t`: at rest at the start.
 
@@ -15,7 +15,7 @@ use jostle::geometry::{Disk, Wall};
 use jostle::scene::Simulation;
 use jostle::scene::packing::PackingOnSine;
 
-use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder, root_mean_square};
+use super::case::{Case, Done, Point, Stopwatch, Trouble, known, ladder, root_mean_square};
 use super::engines::{Located, SoftEngine, each_engine};
 use anyhow::{Context, Result as AnyResult, anyhow};
 
@@ -110,22 +110,15 @@ pub fn by_tolerance(tolerances: impl Iterator<Item = f64>) -> Case {
 /// The start, settled the first time it is asked for.
 fn start() -> Result<&'static [Start], Trouble> {
     static START: OnceLock<Vec<Start>> = OnceLock::new();
-    if let Some(known) = START.get() {
-        return Ok(known);
-    }
-    let settled = settled()?;
-    Ok(START.get_or_init(|| settled))
+    Ok(known(&START, settled)?.as_slice())
 }
 
 /// The reference at a horizon \[s\], computed the first time it is asked for.
 fn reference(horizon: f64) -> Result<&'static Places, Trouble> {
     static REFERENCES: [OnceLock<Places>; 2] = [const { OnceLock::new() }; 2];
-    let reference = &REFERENCES[usize::from(horizon > HORIZON)];
-    if let Some(known) = reference.get() {
-        return Ok(known);
-    }
-    let (places, _) = run::<Located>(REFERENCE_STEP, horizon, &mut Stopwatch::default())?;
-    Ok(reference.get_or_init(|| places))
+    known(&REFERENCES[usize::from(horizon > HORIZON)], || {
+        Ok(run::<Located>(REFERENCE_STEP, horizon, &mut Stopwatch::default())?.0)
+    })
 }
 
 /// The packing of seed 1 after a second of shaking.
@@ -228,10 +221,10 @@ fn point<E: SoftEngine>(step: f64, horizon: f64) -> Point {
 /// Errors of the angles and of the positions, relative to how far the reference has turned and moved.
 fn errors(places: &Places, exact: &Places, start: &[Start]) -> [f64; 2] {
     let rms = |of: &dyn Fn(usize) -> f64| root_mean_square(&(0..start.len()).map(of).collect::<Vec<_>>());
-    let way = |a: [f64; 2], b: [f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    let distance = |a: [f64; 2], b: [f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]);
     let missed = rms(&|disk| places[disk][2] - exact[disk][2]);
     let turned = rms(&|disk| exact[disk][2]);
-    let off = rms(&|disk| way([places[disk][0], places[disk][1]], exact[disk]));
-    let moved = rms(&|disk| way(start[disk].place, exact[disk]));
+    let off = rms(&|disk| distance([places[disk][0], places[disk][1]], exact[disk]));
+    let moved = rms(&|disk| distance(start[disk].place, exact[disk]));
     [missed / turned, off / moved]
 }

@@ -1,15 +1,15 @@
 //! Transport on the sawtooth against the floor under the normal velocity.
 //!
 //! F's rule lets no disk leave with less than a minimum normal velocity. It saves impacts and adds energy; the bias of
-//! the transport velocity tells how much.
+//! the transport velocity shows how much.
 
-use std::cell::OnceCell;
 use std::rc::Rc;
+use std::sync::OnceLock;
 
 use jostle::scene::ratchet::RatchetOnSine;
 use jostle::scene::{Simulation, Value};
 
-use super::case::{Case, Done, Point, Stopwatch, Trouble, count, ladder, mean_and_error};
+use super::case::{Case, Done, Point, Stopwatch, Trouble, count, known, ladder, mean_and_error};
 
 const SEEDS: i64 = 32;
 const SECONDS: f64 = 10.0;
@@ -22,17 +22,12 @@ const QUANTITIES: &[(&str, &str)] = &[(
 
 /// The ratchet at its start values.
 pub fn cases() -> Vec<Case> {
-    let reference: Rc<OnceCell<(f64, f64)>> = Rc::default();
+    let reference: Rc<OnceLock<(f64, f64, f64)>> = Rc::default();
     let points = ladder(1e-1, 0.1, 5).chain([0.0]).map(|floor| {
         let reference = Rc::clone(&reference);
         Point::new("velocity floor", floor, move |watch: &mut Stopwatch| {
-            let (exact, exact_error) = match reference.get() {
-                Some(known) => *known,
-                None => {
-                    let (mean, error, _) = transport(LOWEST, 1001, &mut Stopwatch::default())?;
-                    *reference.get_or_init(|| (mean, error))
-                }
-            };
+            let lowest = || transport(LOWEST, 1001, &mut Stopwatch::default());
+            let &(exact, exact_error, _) = known(&reference, lowest)?;
             let (mean, error, collisions) = transport(floor, 1, watch)?;
             Ok(Done {
                 errors: vec![((mean - exact).abs(), error.hypot(exact_error))],

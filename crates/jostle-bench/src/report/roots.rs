@@ -2,7 +2,7 @@
 //! which has one.
 //!
 //! The error of a root is the gap there over the speed of approach. A method that passes the first root of a flight has
-//! no place in the diagram and is told instead.
+//! no place in the diagram and is reported instead.
 
 use jostle::drive::{Drive, FirstHit, Sine};
 use jostle::geometry::Flight;

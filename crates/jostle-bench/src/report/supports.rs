@@ -1,13 +1,13 @@
 //! A disk on two supports by the engine of three disks: between walls against a closed form, and coming down onto two
 //! disks, at rest and shaken, against itself in much smaller steps.
 
-use std::cell::OnceCell;
 use std::rc::Rc;
+use std::sync::OnceLock;
 
 use jostle::scene::disk_on_two_supports::DiskOnTwoSupportsOnSine;
 use jostle::scene::{Simulation, Value};
 
-use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder};
+use super::case::{Case, Done, Point, Stopwatch, Trouble, known, ladder};
 use super::lasting::{
     AMPLITUDE, DAMPING, FREQUENCY, GRAVITY, Oscillator, QUANTITIES, RADIUS, SLOPE, STIFFNESS, STIFFNESS_RATIO,
 };
@@ -52,15 +52,11 @@ fn on_disks(name: &'static str, what: &str, amplitude: f64) -> Case {
         drop: DROP,
         friction: 0.5,
     };
-    let reference: Rc<OnceCell<f64>> = Rc::default();
+    let reference: Rc<OnceLock<f64>> = Rc::default();
     let points = ladder(COARSEST, 2.0, LADDER).map(|steps| {
         let reference = Rc::clone(&reference);
-        rig.point(steps, move || match reference.get() {
-            Some(known) => Ok(*known),
-            None => {
-                let exact = rig.risen(FINEST, &mut Stopwatch::default())?;
-                Ok(*reference.get_or_init(|| exact))
-            }
+        rig.point(steps, move || {
+            known(&reference, || rig.risen(FINEST, &mut Stopwatch::default())).copied()
         })
     });
     Case {

@@ -1,8 +1,8 @@
 //! A disk on two supports under a slow harmonic torque: mean rotation against the closed form of P 5.9.
 
-use std::cell::OnceCell;
 use std::f64::consts::{PI, TAU};
 use std::rc::Rc;
+use std::sync::OnceLock;
 
 use jostle::measure::disk_on_two_supports::{
     HarmonicTorque, Setting, closed_form, closed_form_with_inertia, limits, relaxed,
@@ -10,7 +10,7 @@ use jostle::measure::disk_on_two_supports::{
 use jostle::scene::Simulation;
 use jostle::scene::disk_on_two_supports::DiskOnTwoSupportsOnHarmonicTorque;
 
-use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder};
+use super::case::{Case, Done, Point, Stopwatch, Trouble, known, ladder};
 
 const TORQUE: HarmonicTorque = HarmonicTorque {
     amplitude: 0.125,
@@ -25,17 +25,12 @@ const METHOD: &str = "located events";
 
 /// By the time step, and by the stiffness.
 pub fn cases() -> Vec<Case> {
-    let reference: Rc<OnceCell<f64>> = Rc::default();
+    let reference: Rc<OnceLock<f64>> = Rc::default();
     let steps = ladder(1.0, 0.5, 7).map(|share| {
         let reference = Rc::clone(&reference);
         Point::new(METHOD, share, move |watch: &mut Stopwatch| {
-            let exact = match reference.get() {
-                Some(known) => *known,
-                None => {
-                    let tight = run(STIFFNESS, 1.0 / 512.0, &mut Stopwatch::default())?.0;
-                    *reference.get_or_init(|| tight)
-                }
-            };
+            let tight = || Ok(run(STIFFNESS, 1.0 / 512.0, &mut Stopwatch::default())?.0);
+            let exact = known(&reference, tight)?;
             let (found, evaluations) = run(STIFFNESS, share, watch)?;
             let theory = with_corrections(STIFFNESS)?;
             let errors = [found / exact - 1.0, found / theory - 1.0].map(f64::abs);

@@ -2,14 +2,14 @@
 //!
 //! Setting: simulated time. The statistical error falls with its root; what remains is the bias of a method.
 
-use std::cell::OnceCell;
 use std::rc::Rc;
+use std::sync::OnceLock;
 
 use jostle::drive::Sine;
 use jostle::scene::wedge::{WedgeEventDrivenOnSine, WedgeMap, WedgeMolecularDynamicsOnSine};
 use jostle::scene::{Model, Simulation, Value};
 
-use super::case::{Case, Done, Point, Stopwatch, Trouble, count, ladder, mean_and_error};
+use super::case::{Case, Done, Point, Stopwatch, Trouble, count, known, ladder, mean_and_error};
 
 const TILT: f64 = 21.0;
 const GAMMA: f64 = 2.0;
@@ -31,7 +31,7 @@ struct Mean {
 
 /// The wedge of 120 degrees.
 pub fn cases() -> Vec<Case> {
-    let reference: Rc<OnceCell<Mean>> = Rc::default();
+    let reference: Rc<OnceLock<Mean>> = Rc::default();
     let mut points = Vec::new();
     for seconds in ladder(0.25, 4.0, 6) {
         points.push(point::<WedgeMap>("map, random phase", &reference, seconds));
@@ -60,16 +60,12 @@ pub fn cases() -> Vec<Case> {
     }]
 }
 
-fn point<M: Model>(method: &'static str, reference: &Rc<OnceCell<Mean>>, seconds: f64) -> Point {
+fn point<M: Model>(method: &'static str, reference: &Rc<OnceLock<Mean>>, seconds: f64) -> Point {
     let reference = Rc::clone(reference);
     Point::new(method, seconds, move |watch: &mut Stopwatch| {
-        let exact = match reference.get() {
-            Some(known) => *known,
-            None => {
-                let mean = mean::<WedgeEventDrivenOnSine>(1001, REFERENCE_SECONDS, &mut Stopwatch::default())?;
-                *reference.get_or_init(|| mean)
-            }
-        };
+        let exact = known(&reference, || {
+            mean::<WedgeEventDrivenOnSine>(1001, REFERENCE_SECONDS, &mut Stopwatch::default())
+        })?;
         let found = mean::<M>(1, seconds, watch)?;
         Ok(Done {
             errors: vec![((found.mean - exact.mean).abs(), found.error.hypot(exact.error))],

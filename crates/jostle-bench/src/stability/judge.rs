@@ -7,8 +7,8 @@ use jostle::scene::Value;
 use super::matrix::Probe;
 use super::watch::{Watch, given};
 
-/// Looks of a run whose communication step does not matter.
-const LOOKS: f64 = 400.0;
+/// Samples of a run whose communication step does not matter.
+const SAMPLES: f64 = 400.0;
 /// Standard errors by which two means may differ.
 const SIGMAS: f64 = 5.0;
 /// Runs of which such a mean is made.
@@ -20,7 +20,7 @@ const SMALL: f64 = 1e-4;
 /// Growth of the resident memory over the second half of a run that is still called flat \[bytes\].
 const FLAT: f64 = 2e6;
 
-/// What came of a case.
+/// Outcome of a case.
 pub enum Outcome {
     /// Every criterion that applies holds.
     Holds,
@@ -167,9 +167,9 @@ pub fn judge(probe: &Probe, budget: f64) -> Judged {
 /// Advances to the end or the budget; a refusal ends the run.
 fn run(watch: &mut Watch, probe: &Probe, budget: f64, judged: &mut Judged) -> Option<Error> {
     let start = ProcessTime::now();
-    let longest = probe.communication.unwrap_or(probe.seconds / LOOKS);
+    let longest = probe.communication.unwrap_or(probe.seconds / SAMPLES);
     let mut step = probe.communication.unwrap_or(1e-5 * longest);
-    let (mut looks, mut memory) = (0_u32, None);
+    let (mut samples, mut memory) = (0_u32, None);
     while watch.simulation.time() < probe.seconds * (1.0 - 1e-9) && start.elapsed().as_secs_f64() < budget {
         let before = watch.simulation.time();
         let end = (before + step).min(probe.seconds);
@@ -182,9 +182,9 @@ fn run(watch: &mut Watch, probe: &Probe, budget: f64, judged: &mut Judged) -> Op
             judged.cpu_seconds = start.elapsed().as_secs_f64();
             return Some(error);
         }
-        watch.look(probe, before, end > 0.5 * probe.seconds);
-        looks += 1;
-        if looks == 100 {
+        watch.sample(probe, before, end > 0.5 * probe.seconds);
+        samples += 1;
+        if samples == 100 {
             memory = resident();
         }
         if probe.communication.is_none() && began.elapsed().as_secs_f64() < 0.005 * budget {
@@ -215,7 +215,7 @@ fn jump(watch: &mut Watch, probe: &Probe, end: f64) -> Result<(), Error> {
     watch.simulation.set("base.displacement", now)
 }
 
-/// Compares with the neighbour: the same bits where only the looks differ, the same mean where a limit is reached.
+/// Compares with the neighbour: the same bits where only the samples differ, the same mean where a limit is reached.
 fn limits(watch: &mut Watch, probe: &Probe, budget: f64, judged: &mut Judged) {
     if probe.communication.is_some() && probe.jump.is_none() {
         judged.criteria.push("same bits");

@@ -138,8 +138,8 @@ impl Kind {
         strengths.into_iter().chain(frequencies).collect()
     }
 
-    /// On a sine, how one looks must change no bit: `tame` is the same run with another communication step.
-    fn looks(self) -> Vec<Probe> {
+    /// On a sine, sampling must change no bit: `tame` is the same run with another communication step.
+    fn samplings(self) -> Vec<Probe> {
         [(1e-9, 1e-5), (1e-6, 1e-3), (1e-3, 1.0), (1.0, 10.0), (10.0, 20.0)]
             .map(|(step, seconds)| {
                 let mut probe = self.probe("communication step", format!("{step:e} s"), Vec::new());
@@ -246,7 +246,7 @@ fn packings(kind: Kind) -> Vec<Probe> {
         probe
     }));
     probes.extend(kind.counts(&[1, 2, 1000, 100_000]));
-    probes.extend(kind.looks());
+    probes.extend(kind.samplings());
     probes
 }
 
@@ -282,7 +282,7 @@ fn wedges(kind: Kind) -> Vec<Probe> {
         }
         probe
     }));
-    probes.extend(kind.looks());
+    probes.extend(kind.samplings());
     probes
 }
 
@@ -306,7 +306,7 @@ fn ratchets(kind: Kind) -> Vec<Probe> {
         kind.probe("radius ratio", format!("{:e}", large / small), changes)
     }));
     probes.extend(kind.counts(&[1, 2, 1000]));
-    probes.extend(kind.looks());
+    probes.extend(kind.samplings());
     probes
 }
 

@@ -19,7 +19,7 @@ use matrix::Probe;
 /// Runs stiff and extreme cases of every scene and engine, and judges each by criteria.
 ///
 /// Writes cases.csv (scene, engine, drive, dimension, value, result, criteria) into a folder. Results: holds; refused,
-/// with the reason and the remedy that were told; violated, with the criterion and the numbers.
+/// with the reason and the remedy that were reported; violated, with the criterion and the numbers.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Example:\n  jostle-bench stability --out results/stability --only wedge\n\n\

@@ -1,4 +1,4 @@
-//! What is seen of a run: bounds that hold at every look, by the outputs alone.
+//! Bounds that hold at every sample of a run, read from its outputs alone.
 
 use std::f64::consts::PI;
 
@@ -15,7 +15,7 @@ const HARD_SHARES: [f64; 2] = [1e-9, 1e-9];
 /// Pairs are compared one by one up to this number of disks.
 const MOST_COMPARED: usize = 1000;
 
-/// Energies and momentum at one look.
+/// Energies and momentum at one sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Balance {
     kinetic: f64,
@@ -30,17 +30,17 @@ pub struct Watch {
     pub simulation: AnySimulation,
     columns: Columns,
     start: Balance,
-    /// Largest energy seen, exchanged or stored: what an error is measured by.
+    /// Largest energy observed, exchanged or stored: what an error is measured by.
     scale: f64,
     collisions: f64,
     /// Vertical impulse of the disks on the base so far \[N.s\].
     impulse: f64,
     most_kinetic: f64,
-    /// Mean kinetic energy over each look of the second half.
+    /// Mean kinetic energy over each interval between samples of the second half.
     pub kinetic: Vec<f64>,
     /// Criteria that failed, with numbers; each but once.
     pub violated: Vec<(&'static str, String)>,
-    /// Largest |residual| / scale seen.
+    /// Largest |residual| / scale observed.
     pub energy_error: f64,
     /// Deepest overlap over the smallest radius.
     pub overlap: f64,
@@ -109,8 +109,8 @@ impl Watch {
         }
     }
 
-    /// Looks after a step from `before` \[s\]; `probe` tells the geometry.
-    pub fn look(&mut self, probe: &Probe, before: f64, keep: bool) {
+    /// Takes a sample after a step from `before` \[s\]; `probe` gives the geometry.
+    pub fn sample(&mut self, probe: &Probe, before: f64, keep: bool) {
         let time = self.simulation.time();
         if time <= before {
             self.violate("time", format!("{time} s after {before} s"));
@@ -304,9 +304,9 @@ fn deepest(places: &[[f64; 2]], radii: &[f64]) -> f64 {
     let mut deepest = 0.0_f64;
     for (i, a) in places.iter().enumerate() {
         for (j, b) in places[..i].iter().enumerate() {
-            let reach = radii[i] + radii[j];
-            if (a[1] - b[1]).abs() < reach {
-                deepest = deepest.max(reach - (a[0] - b[0]).hypot(a[1] - b[1]));
+            let radius_sum = radii[i] + radii[j];
+            if (a[1] - b[1]).abs() < radius_sum {
+                deepest = deepest.max(radius_sum - (a[0] - b[0]).hypot(a[1] - b[1]));
             }
         }
     }

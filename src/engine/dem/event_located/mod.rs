@@ -1,4 +1,4 @@
-//! Method of fourth order in which every change of a contact happens at its own instant.
+//! Method of fourth order in which every change of a contact happens at its exact time.
 //!
 //! Touch, release, yield and hold of a contact are located inside the step and integrated for this contact alone; the
 //! other contacts take the whole step. So the order survives contact events, and the cost of an event is that of one

@@ -268,7 +268,7 @@ mod tests {
         }
     }
 
-    /// Pressed and sticking, pressed and slipping either way, leaving faster than the spring pushes.
+    /// Pressed and sticking, pressed and slipping in both senses, leaving faster than the spring recovers.
     #[test]
     fn lanes_give_the_forces_of_the_scalar_laws() {
         let normal = LinearDashpot {

@@ -7,7 +7,7 @@
 
 /// A rule that advances degrees of freedom by one step.
 ///
-/// It is a type parameter of the engine, though the scenes use velocity Verlet alone, because P used Gear's: whoever repeats
+/// It is a type parameter of the engine, though the scenes use velocity Verlet alone, because P used Gear's: who repeats
 /// P's runs or compares integrators takes [`Gear5`](super::Gear5), and neither is compiled into the other.
 pub trait Integrator: std::fmt::Debug + Clone + Copy + Default + Send + 'static {
     /// Derivatives beyond the acceleration that are kept for each degree of freedom.

@@ -40,8 +40,8 @@ fn soft_limits_tend_to_rigid_ones() {
     assert!((shift / (normal / 2e5 / 3.0) - 1.0).abs() < 1e-2, "{shift}");
 }
 
-/// The kick by a path of its own: equilibria at two torques by elimination, their difference as the velocity, the stop of
-/// the centre with its spin by four more equations.
+/// The kick by an independent computation: equilibria at two torques by elimination, their difference as the velocity, the
+/// stop of the centre with its spin by four more equations.
 #[test]
 fn kicks_stop_the_centre() {
     let stiffness = 1e3;

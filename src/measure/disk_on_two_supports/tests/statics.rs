@@ -120,7 +120,7 @@ fn limits_are_the_printed_ones() {
         assert!((found.clockwise / (unit * (cosine + setting.friction * sine)) - 1.0).abs() < 1e-12);
         assert!((found.counter_clockwise / (unit * (cosine - setting.friction * sine)) - 1.0).abs() < 1e-12);
     }
-    // P 5.2.2 and 5.2.3: 0.115 slides both ways at all tilts, 0.113 does at 0.1 pi, where 0.100 does not slide.
+    // P 5.2.2 and 5.2.3: 0.115 slides in both senses at all tilts, 0.113 does at 0.1 pi, where 0.100 does not slide.
     let setting = Setting::THESIS;
     let highest = limits(&setting.tilted(0.1_f64.atan())).clockwise;
     assert!(highest < 0.115 && Limits::untilted(&setting) > 0.113);

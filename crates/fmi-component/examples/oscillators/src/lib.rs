@@ -1,5 +1,5 @@
 //! Oscillators on a moving frame: a model as small as can be that has a variable of each kind, an event (body 1 passes height
-//! zero), a choice of how many bodies there are, and that can be told to refuse a step or to panic. The tests use it.
+//! zero), a structural parameter for the number of bodies, and that can be set to refuse a step or to panic. The tests use it.
 //!
 //! x'' = -(k / m) (x - frame) - (c / m) (v - frame') - g, semi-implicit Euler on the fixed grid start + n time step.
 #![allow(unsafe_code)] // the exported C functions; each is checked in `fmi_component::c_api`

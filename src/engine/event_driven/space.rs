@@ -22,30 +22,26 @@ pub trait Space: Copy + Send + 'static {
 
     /// Shortest of the separations \[m\] of all images of two points.
     #[inline(always)]
-    fn nearest_image(&self, mut separation: Vector2<f64>) -> Vector2<f64> {
-        let Region { size, .. } = self.region();
-        for axis in (0..2).filter(|&axis| Self::PERIODIC[axis]) {
-            if separation[axis] > 0.5 * size[axis] {
-                separation[axis] -= size[axis];
-            } else if separation[axis] < -0.5 * size[axis] {
-                separation[axis] += size[axis];
-            }
-        }
-        separation
+    fn nearest_image(&self, separation: Vector2<f64>) -> Vector2<f64> {
+        let size = self.region().size;
+        let nearest = |axis: usize| match separation[axis] {
+            far if Self::PERIODIC[axis] && far > 0.5 * size[axis] => far - size[axis],
+            far if Self::PERIODIC[axis] && far < -0.5 * size[axis] => far + size[axis],
+            near => near,
+        };
+        Vector2::new(nearest(0), nearest(1))
     }
 
     /// The image of a position inside the region, at most one period away.
     #[inline(always)]
-    fn wrapped(&self, mut position: Vector2<f64>) -> Vector2<f64> {
+    fn wrapped(&self, position: Vector2<f64>) -> Vector2<f64> {
         let Region { corner, size } = self.region();
-        for axis in (0..2).filter(|&axis| Self::PERIODIC[axis]) {
-            if position[axis] >= corner[axis] + size[axis] {
-                position[axis] -= size[axis];
-            } else if position[axis] < corner[axis] {
-                position[axis] += size[axis];
-            }
-        }
-        position
+        let wrapped = |axis: usize| match position[axis] {
+            right if Self::PERIODIC[axis] && right >= corner[axis] + size[axis] => right - size[axis],
+            left if Self::PERIODIC[axis] && left < corner[axis] => left + size[axis],
+            inside => inside,
+        };
+        Vector2::new(wrapped(0), wrapped(1))
     }
 }
 

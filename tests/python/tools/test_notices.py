@@ -1,6 +1,7 @@
 """The notices of the software that is linked into what ships."""
 
 import re
+import subprocess
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -32,6 +33,14 @@ def test_what_is_linked_is_named_and_nothing_of_the_command_line_is():
     assert re.search(r"^  toml \d", library, re.MULTILINE)
     for name in ("clap", "zip", "serde_derive", "thiserror-impl", "proptest", "jostle"):
         assert not re.search(rf"^  {name} \d", KEPT, re.MULTILINE), name
+
+
+def test_normal_numbers_do_not_depend_on_the_c_library():
+    """With num-traits/std, which any dependency can switch on, rand_distr takes exp and ln from the C library."""
+    command = "cargo tree --workspace --edges normal,features --invert num-traits --locked --offline"
+    tree = subprocess.run(command.split(), cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert 'num-traits feature "libm"' in tree
+    assert 'num-traits feature "std"' not in tree
 
 
 def test_the_command_line_has_its_own():

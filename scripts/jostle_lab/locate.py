@@ -25,7 +25,7 @@ def program(given: Path | None = None) -> Path:
     beside = [PACKAGE / "bin" / name, Path(sys.executable).parent / name]
     on_path = shutil.which(name)
     places = _places(given, PROGRAM, "", [*beside, *([Path(on_path)] if on_path else [])])
-    remedy = "Build it: cargo build --release --bin jostle. Then name it with --program, or set JOSTLE_PROGRAM"
+    remedy = "Build it: cargo build --release -p jostle-cli. Then name it with --program, or set JOSTLE_PROGRAM"
     looked = [*map(str, places), *(["PATH"] if len(places) > 1 else [])]
     return _first(places, "program jostle", looked, remedy)
 

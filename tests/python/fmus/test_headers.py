@@ -82,13 +82,17 @@ def declared(version: int) -> dict[str, tuple[str, list[str]]]:
 
 
 def exported(version: int) -> dict[str, tuple[str, list[str]]]:
-    """The same of the table from which the library's functions are made."""
+    """The same of the two tables from which the library's functions are made.
+
+    The second has the calls of an instance: that is their first argument, and a status their result.
+    """
     text = (ROOT / f"crates/fmi-component/src/c_api/export_fmi{version}.rs").read_text()
-    found = re.findall(r"\bfn (fmi\w+)\(([^)]*)\)(?: -> ([^=]+?))? =\n", text)
+    functions, calls = text.split("$crate::__fmi_calls!")
     table = {}
-    for name, arguments, result in found:
-        kinds = [of_rust(argument.split(":")[1].strip()) for argument in arguments.split(",") if ":" in argument]
-        table[name] = (of_rust(result.strip()) if result else "void", kinds)
+    for part, first, status in ((functions, [], "void"), (calls, ["*mut void"], "i32")):
+        for name, arguments, result in re.findall(r"\bfn (fmi\w+)\(([^)]*)\)(?: -> ([^=]+?))? =\s", part):
+            kinds = [of_rust(argument.split(":")[1].strip()) for argument in arguments.split(",") if ":" in argument]
+            table[name] = (of_rust(result.strip()) if result else status, first + kinds)
     return table
 
 

@@ -28,9 +28,9 @@ pub struct SceneInfo {
     pub disks: RangeInclusive<u32>,
     /// Number of disks where none is chosen.
     pub default_disks: u32,
-    /// Default experiment: stop time \\[s\\].
+    /// Default experiment: stop time \[s\].
     pub stop_time: f64,
-    /// Default experiment: communication step \\[s\\].
+    /// Default experiment: communication step \[s\].
     pub step_size: f64,
 }
 

@@ -1,5 +1,8 @@
 //! Normal force of the linear dashpot with cut-off at zero (P 4.2).
 
+use wide::f64x2;
+
+use super::NormalForce;
 use crate::geometry::bracketed_root::falling_root;
 
 /// Linear spring and dashpot that push and never pull.
@@ -84,6 +87,35 @@ impl LinearDashpot {
             c.acosh() / ((c - 1.0) * (c + 1.0)).sqrt()
         };
         2.0 * arc
+    }
+}
+
+impl NormalForce for LinearDashpot {
+    fn constants(&self) -> [f64; 2] {
+        [self.stiffness, self.damping]
+    }
+
+    #[inline(always)]
+    fn elastic([stiffness, _]: [f64x2; 2], overlap: f64x2) -> f64x2 {
+        stiffness * overlap
+    }
+
+    #[inline(always)]
+    fn viscous([_, damping]: [f64x2; 2], _overlap: f64x2, normal_velocity: f64x2) -> f64x2 {
+        damping * normal_velocity
+    }
+
+    #[inline]
+    fn energy(&self, overlap: f64) -> f64 {
+        LinearDashpot::energy(self, overlap)
+    }
+
+    fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    fn damping(&self) -> f64 {
+        self.damping
     }
 }
 

@@ -2,17 +2,44 @@
 //!
 //! Not here: which disks touch (`engine::dem`), impulse laws of instantaneous collisions (`collision`).
 
+use std::fmt::Debug;
+
+use wide::f64x2;
+
 mod linear_dashpot;
 mod tangential_spring;
 
 pub use linear_dashpot::LinearDashpot;
 pub use tangential_spring::TangentialSpring;
 
+/// A normal force of soft disks, `max(elastic - viscous, 0)`: a function of the overlap delta and the normal velocity u_n.
+///
+/// The inner loop computes two contacts at once. Where disks do not touch, the results are not used; they may be NaN.
+pub trait NormalForce: Debug + Clone + Copy + PartialEq + Send + 'static {
+    /// The two constants of [`NormalForce::elastic`] and [`NormalForce::viscous`].
+    fn constants(&self) -> [f64; 2];
+
+    /// Force \[N\] of the spring at the overlaps delta \[m\].
+    fn elastic(constants: [f64x2; 2], overlap: f64x2) -> f64x2;
+
+    /// Force \[N\] of the damping, which is subtracted; u_n \[m/s\] is negative on approach.
+    fn viscous(constants: [f64x2; 2], overlap: f64x2, normal_velocity: f64x2) -> f64x2;
+
+    /// Energy \[J\] stored in the spring at an overlap \[m\].
+    fn energy(&self, overlap: f64) -> f64;
+
+    /// Stiffness \[N/m\] that the time step has to resolve.
+    fn stiffness(&self) -> f64;
+
+    /// Damping \[kg/s\] that the time step has to resolve.
+    fn damping(&self) -> f64;
+}
+
 /// Contact laws of every contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactLaws {
+pub struct ContactLaws<N = LinearDashpot> {
     /// Normal force.
-    pub normal: LinearDashpot,
+    pub normal: N,
     /// Tangential force.
     pub tangential: TangentialSpring,
 }

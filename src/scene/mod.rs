@@ -17,6 +17,11 @@ pub mod drives {
 }
 pub mod hard_disks;
 mod info;
+pub mod laws {
+    //! The normal forces of soft disks, one a file: their parameters as rows.
+
+    mod linear_dashpot;
+}
 pub mod packing;
 pub mod ratchet;
 #[cfg(feature = "toml")]

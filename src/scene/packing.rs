@@ -13,14 +13,15 @@ mod rows;
 pub mod soft;
 mod soft_packing;
 
+use crate::contact::LinearDashpot;
 use crate::drive::{FollowsInput, Sine};
 use crate::engine::dem::event_located::EventStepper;
 use crate::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
 
 pub use soft_packing::{PackingState, SoftPacking};
 
-/// Packing of soft disks by velocity Verlet, on a base that moves with the drive D.
-pub type PackingOn<D> = SoftPacking<PredictorCorrector<VelocityVerlet>, D>;
+/// Packing of soft disks by velocity Verlet, on a base that moves with the drive D, with the normal force N.
+pub type PackingOn<D, N = LinearDashpot> = SoftPacking<PredictorCorrector<VelocityVerlet, N>, D>;
 /// The base follows the inputs `base.displacement` and `base.velocity`.
 pub type PackingOnInput = PackingOn<FollowsInput>;
 /// The base moves as a sine.

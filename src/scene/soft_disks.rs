@@ -1,10 +1,10 @@
 //! What the scenes of soft disks share: contact laws and time step that their parameters describe, and what they say when an
 //! engine stops.
 
-use crate::contact::{ContactLaws, LinearDashpot, TangentialSpring};
+use crate::contact::{ContactLaws, NormalForce, TangentialSpring};
 use crate::engine::dem::{Breakdown, TimeStepLimits};
 
-use super::{Error, Result, Values};
+use super::{Error, Result, Row, Values};
 
 /// What the time step of one disk depends on besides its drive: its fastest mode, and the choice of the user.
 pub const STEP_OF_ONE_DISK: &[&str] = &[
@@ -16,14 +16,27 @@ pub const STEP_OF_ONE_DISK: &[&str] = &[
     "time_step",
 ];
 
+/// A normal force that a scene of soft disks can have: see [`laws`](super::laws), one a file.
+pub trait SceneNormalForce: NormalForce {
+    /// Name of velocity Verlet with this force on the command line.
+    const ENGINE: &'static str;
+    /// Model identifier of the packing with it, on a base that follows inputs.
+    const PACKING: &'static str;
+    /// Names of the parameters that it has besides stiffness and damping.
+    const PARAMETERS: &'static [&'static str];
+
+    /// These parameters.
+    fn rows<M>() -> Vec<Row<M>>;
+
+    /// The force that the parameters describe.
+    fn from_values(values: &Values) -> Self;
+}
+
 /// The laws that the parameters `contact.*` describe.
-pub fn contact_laws(values: &Values) -> ContactLaws {
-    let normal = LinearDashpot {
-        stiffness: values.real("contact.normal_stiffness"),
-        damping: values.real("contact.normal_damping"),
-    };
+pub fn contact_laws<N: SceneNormalForce>(values: &Values) -> ContactLaws<N> {
+    let normal = N::from_values(values);
     let tangential = TangentialSpring {
-        stiffness: values.real("contact.stiffness_ratio") * normal.stiffness,
+        stiffness: values.real("contact.stiffness_ratio") * values.real("contact.normal_stiffness"),
         friction: values.real("contact.friction"),
     };
     ContactLaws { normal, tangential }

@@ -3,6 +3,7 @@
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use crate::contact::NormalForce;
 use crate::drive::{Drive, Motion};
 use crate::engine::{Engine, WorkBudget};
 use crate::error::are_sane;
@@ -55,6 +56,8 @@ impl<D: Clone, M: Clone> Clone for GridState<D, M> {
 
 /// How soft disks are advanced by one step.
 pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
+    /// Normal force of its contacts.
+    type Normal: NormalForce;
     /// Disks and their contacts: what changes with time beside the base.
     type Disks: std::fmt::Debug + Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static;
 
@@ -62,10 +65,10 @@ pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
     const WORK_OF_STEP: f64;
 
     /// `disks` at rest, without contacts yet.
-    fn at_rest(setup: SoftDiskSetup, disks: &[Disk]) -> (Self, Self::Disks);
+    fn at_rest(setup: SoftDiskSetup<Self::Normal>, disks: &[Disk]) -> (Self, Self::Disks);
 
     /// What stays constant.
-    fn constants(&self) -> &SoftDisks;
+    fn constants(&self) -> &SoftDisks<Self::Normal>;
 
     /// Starts from positions and velocities that were set from outside: overlapping disks have just touched.
     fn start<D>(&mut self, state: &mut GridState<D, Self::Disks>);
@@ -130,7 +133,7 @@ pub struct FixedGrid<S: Stepper, D> {
 
 impl<S: Stepper, D: Drive> FixedGrid<S, D> {
     /// Disks at rest where they are, at `setup.start_time`, under the drive.
-    pub fn new(setup: SoftDiskSetup, disks: &[Disk], drive: D) -> Self {
+    pub fn new(setup: SoftDiskSetup<S::Normal>, disks: &[Disk], drive: D) -> Self {
         let base = drive.motion(setup.start_time);
         let (mut stepper, disks) = S::at_rest(setup, disks);
         let mut state = GridState {
@@ -192,7 +195,7 @@ impl<S: Stepper, D> FixedGrid<S, D> {
     }
 
     /// What stays constant.
-    pub fn setup(&self) -> &SoftDiskSetup {
+    pub fn setup(&self) -> &SoftDiskSetup<S::Normal> {
         &self.stepper.constants().setup
     }
 

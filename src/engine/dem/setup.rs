@@ -1,13 +1,13 @@
 //! The constants of a run and what can stop it.
 
-use crate::contact::ContactLaws;
+use crate::contact::{ContactLaws, LinearDashpot};
 use crate::geometry::{Disk, Wall};
 
 /// What stays constant during a run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SoftDiskSetup {
+pub struct SoftDiskSetup<N = LinearDashpot> {
     /// Contact laws.
-    pub laws: ContactLaws,
+    pub laws: ContactLaws<N>,
     /// Walls; those that follow the base move with the drive.
     pub walls: Vec<Wall>,
     /// Mass of each disk \[kg\]; the moment of inertia is that of a uniform disk.
@@ -22,18 +22,18 @@ pub struct SoftDiskSetup {
 
 /// A [`SoftDiskSetup`] with the radii of its disks.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SoftDisks {
+pub struct SoftDisks<N = LinearDashpot> {
     /// Laws, walls, masses and times.
-    pub setup: SoftDiskSetup,
+    pub setup: SoftDiskSetup<N>,
     /// Radii \[m\].
     pub radii: Vec<f64>,
     /// The smallest radius \[m\].
     pub smallest_radius: f64,
 }
 
-impl SoftDisks {
+impl<N> SoftDisks<N> {
     /// `setup` for these disks.
-    pub fn new(setup: SoftDiskSetup, disks: &[Disk]) -> Self {
+    pub fn new(setup: SoftDiskSetup<N>, disks: &[Disk]) -> Self {
         let radii: Vec<f64> = disks.iter().map(|disk| disk.radius).collect();
         let smallest_radius = radii.iter().copied().fold(f64::INFINITY, f64::min);
         Self {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::contact::ContactLaws;
+use crate::contact::{ContactLaws, NormalForce};
 
 /// Time steps that suit a set of contact laws and masses.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,10 +36,10 @@ impl TimeStepLimits {
     ///
     /// Stability: with six contacts on a disk the highest frequency is below `sqrt(6)` times that of one contact, and
     /// velocity Verlet is stable up to 2 over it, which is 0.13 periods of one contact: 2.6 times `largest`.
-    pub fn verlet(laws: &ContactLaws, masses: &[f64], drive_frequency: Option<f64>) -> Self {
+    pub fn verlet<N: NormalForce>(laws: &ContactLaws<N>, masses: &[f64], drive_frequency: Option<f64>) -> Self {
         let mass = smallest_effective_mass(masses);
         let period = TAU * (mass / largest_stiffness(laws)).sqrt();
-        let damping_time = mass / laws.normal.damping;
+        let damping_time = mass / laws.normal.damping();
         let drive_period = period_of(drive_frequency);
         Self {
             default: (period / 100.0).min(damping_time / 30.0).min(drive_period / 100.0),
@@ -83,13 +83,13 @@ fn smallest_effective_mass(masses: &[f64]) -> f64 {
 }
 
 /// `max(k_n, 3 k_t)` \[N/m\].
-fn largest_stiffness(laws: &ContactLaws) -> f64 {
+fn largest_stiffness<N: NormalForce>(laws: &ContactLaws<N>) -> f64 {
     let tangential = if laws.tangential.friction > 0.0 {
         3.0 * laws.tangential.stiffness
     } else {
         0.0
     };
-    laws.normal.stiffness.max(tangential)
+    laws.normal.stiffness().max(tangential)
 }
 
 fn period_of(frequency: Option<f64>) -> f64 {

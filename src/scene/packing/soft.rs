@@ -4,12 +4,13 @@ use crate::contact::ContactLaws;
 use crate::engine::dem::event_located::EventStepper;
 use crate::engine::dem::verlet::{Integrator, PredictorCorrector};
 use crate::engine::dem::{Stepper, TimeStepLimits};
+use crate::scene::soft_disks::SceneNormalForce;
 use crate::scene::{Row, Unit, Values};
 
 use super::rows;
 
 /// A stepper of soft disks as the packing presents it.
-pub trait SoftMethod: Stepper {
+pub trait SoftMethod: Stepper<Normal: SceneNormalForce> {
     /// Name on the command line.
     const NAME: &'static str;
     /// Model identifier on a base that follows inputs.
@@ -21,12 +22,17 @@ pub trait SoftMethod: Stepper {
     fn parameters<M>() -> Vec<Row<M>>;
 
     /// Time steps for these contacts and the tolerance among `values`.
-    fn limits(laws: &ContactLaws, masses: &[f64], frequency: Option<f64>, values: &Values) -> TimeStepLimits;
+    fn limits(
+        laws: &ContactLaws<Self::Normal>,
+        masses: &[f64],
+        frequency: Option<f64>,
+        values: &Values,
+    ) -> TimeStepLimits;
 }
 
-impl<I: Integrator> SoftMethod for PredictorCorrector<I> {
-    const NAME: &'static str = "molecular-dynamics";
-    const IDENTIFIER: &'static str = "jostle_packing";
+impl<I: Integrator, N: SceneNormalForce> SoftMethod for PredictorCorrector<I, N> {
+    const NAME: &'static str = N::ENGINE;
+    const IDENTIFIER: &'static str = N::PACKING;
     const DESCRIPTION: &'static str =
         "Packing of frictional disks in a box on a vibrating bottom, by molecular dynamics";
 
@@ -36,7 +42,7 @@ impl<I: Integrator> SoftMethod for PredictorCorrector<I> {
         )]
     }
 
-    fn limits(laws: &ContactLaws, masses: &[f64], frequency: Option<f64>, _values: &Values) -> TimeStepLimits {
+    fn limits(laws: &ContactLaws<N>, masses: &[f64], frequency: Option<f64>, _values: &Values) -> TimeStepLimits {
         TimeStepLimits::verlet(laws, masses, frequency)
     }
 }

@@ -9,7 +9,7 @@ use crate::error::are_sane;
 use crate::geometry::{Disk, Vector2};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, names, radii};
-use crate::scene::soft_disks::{chosen_time_step, contact_laws, refused_step};
+use crate::scene::soft_disks::{SceneNormalForce, chosen_time_step, contact_laws, refused_step};
 use crate::scene::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, info};
 
 use super::initial_packing::{self, NAME};
@@ -102,14 +102,20 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
             step("chosen_time_step", 1e-5, "Time step in use", |packing: &Self| {
                 packing.engine.setup().time_step
             })
-            .depending_on(&names(&[&rows::RADII, STIFFEST, frequency, choice])),
+            .depending_on(&names(&[
+                &rows::RADII,
+                STIFFEST,
+                S::Normal::PARAMETERS,
+                frequency,
+                choice,
+            ])),
             step(
                 "largest_time_step",
                 1e-4,
                 "Largest time step that would be accepted",
                 |packing| packing.limits.largest,
             )
-            .depending_on(&names(&[&rows::RADII, STIFFEST, frequency])),
+            .depending_on(&names(&[&rows::RADII, STIFFEST, S::Normal::PARAMETERS, frequency])),
         ]
     }
 
@@ -118,7 +124,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
     fn energies_and_contacts(at_start: &AtStart) -> [Row<Self>; 7] {
         let energy = |name, description, read| Row::output(name, Unit::JOULE, 1e-3, description, read);
         let touching = names(&[rows::PLACES, D::DISPLACEMENT_AT_START]);
-        let pressed = names(&[&touching, &["contact.normal_stiffness"]]);
+        let pressed = names(&[&touching, &["contact.normal_stiffness"], S::Normal::PARAMETERS]);
         [
             energy(
                 "energy.kinetic",
@@ -214,6 +220,7 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
         let disks = info::disks(structure);
         let at_start = AtStart::of::<D>(&[]);
         let mut rows = rows::parameters();
+        rows.extend(S::Normal::rows());
         rows.extend(S::parameters());
         rows.extend(D::rows());
         rows.extend(Self::time_steps());

@@ -20,6 +20,7 @@ mod polynomial;
 mod state;
 mod step;
 
+use crate::contact::LinearDashpot;
 use crate::drive::{Drive, Motion};
 use crate::error::are_sane;
 use crate::geometry::Disk;
@@ -47,6 +48,7 @@ pub struct EventStepper {
 }
 
 impl Stepper for EventStepper {
+    type Normal = LinearDashpot;
     type Disks = Disks;
 
     const WORK_OF_STEP: f64 = 1.0;

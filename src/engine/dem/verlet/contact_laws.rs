@@ -4,7 +4,9 @@
 //! at which it closes or opens: few candidates do not touch. Not here: which disks touch and where a contact lies in space
 //! (`forces`).
 
-use crate::contact::ContactLaws;
+use std::marker::PhantomData;
+
+use crate::contact::{ContactLaws, NormalForce};
 use crate::engine::dem::angle::SMALL_SINE;
 use crate::engine::dem::lanes::{F64x2, lane, largest, per_lane};
 
@@ -49,29 +51,29 @@ pub struct ContactForces {
 }
 
 /// The contact laws on lanes, with what follows from their constants.
-pub struct LaneLaws {
-    normal_stiffness: F64x2,
-    damping: F64x2,
+pub struct LaneLaws<N> {
+    normal: [F64x2; 2],
     tangential_stiffness: F64x2,
     half_tangential_stiffness: F64x2,
     /// Largest stretch over normal force, mu / k_t \[m/N\].
     slip_compliance: F64x2,
     step: f64,
+    law: PhantomData<N>,
 }
 
-impl LaneLaws {
+impl<N: NormalForce> LaneLaws<N> {
     /// For an evaluation at the end of a step of length `step` \[s\].
-    pub fn new(laws: &ContactLaws, step: f64) -> Self {
+    pub fn new(laws: &ContactLaws<N>, step: f64) -> Self {
         let ContactLaws { normal, tangential } = laws;
         // A spring without stiffness never slips: finite, so that its product with any force is a number.
         let slip_compliance = (tangential.friction / tangential.stiffness).min(f64::MAX);
         Self {
-            normal_stiffness: F64x2::splat(normal.stiffness),
-            damping: F64x2::splat(normal.damping),
+            normal: normal.constants().map(F64x2::splat),
             tangential_stiffness: F64x2::splat(tangential.stiffness),
             half_tangential_stiffness: F64x2::splat(0.5 * tangential.stiffness),
             slip_compliance: F64x2::splat(slip_compliance),
             step,
+            law: PhantomData,
         }
     }
 
@@ -95,8 +97,8 @@ impl LaneLaws {
         } = *approach;
         let zero = F64x2::splat(0.0);
         let touches = overlap.simd_gt(zero);
-        let elastic = self.normal_stiffness * overlap;
-        let normal = (elastic - self.damping * velocity).fast_max(zero) & touches;
+        let elastic = N::elastic(self.normal, overlap);
+        let normal = (elastic - N::viscous(self.normal, overlap, velocity)).fast_max(zero) & touches;
         let lost_power = || ((elastic - normal) & touches) * velocity;
         if !SPRING {
             sums.add(lost_power(), overlap);

@@ -1,5 +1,6 @@
 //! Contact forces of all candidate pairs: the inner loop.
 
+use crate::contact::NormalForce;
 use crate::drive::Motion;
 use crate::engine::dem::lanes::{F64x2, per_lane, transpose, xy};
 use crate::geometry::Wall;
@@ -54,8 +55,8 @@ const BLOCK: usize = 8;
 /// The tangential force on the centres is `tau (R_a + R_b) / r` while the torques have the arms R_a and R_b: so
 /// angular momentum is kept when disks overlap, and the spring is elastic in the strict sense, force = -gradient.
 #[inline(always)]
-pub fn pair_forces<const SPRING: bool>(
-    laws: &LaneLaws,
+pub fn pair_forces<N: NormalForce, const SPRING: bool>(
+    laws: &LaneLaws<N>,
     pairs: &mut [Pair],
     disks: DiskArrays<'_>,
     forces: &mut [[f64; 3]],
@@ -74,7 +75,7 @@ pub fn pair_forces<const SPRING: bool>(
             pair_geometry::<SPRING>(two, disks, geometry);
         }
         for (geometry, two) in geometries.iter().zip(block) {
-            add_pair_forces::<SPRING>(laws, two, geometry, disks, forces, sums);
+            add_pair_forces::<N, SPRING>(laws, two, geometry, disks, forces, sums);
         }
     }
     if let [last] = rest {
@@ -82,7 +83,7 @@ pub fn pair_forces<const SPRING: bool>(
         let mut two = [*last; 2];
         (two[1].radius_sum, two[1].spring) = (0.0, SpringMemory::OPEN);
         pair_geometry::<SPRING>(&two, disks, &mut geometries[0]);
-        add_pair_forces::<SPRING>(laws, &mut two, &geometries[0], disks, forces, sums);
+        add_pair_forces::<N, SPRING>(laws, &mut two, &geometries[0], disks, forces, sums);
         *last = two[0];
     }
 }
@@ -146,8 +147,8 @@ impl Sliding for PairSurfaces<'_> {
 
 /// Adds the forces of two pairs.
 #[inline(always)]
-fn add_pair_forces<const SPRING: bool>(
-    laws: &LaneLaws,
+fn add_pair_forces<N: NormalForce, const SPRING: bool>(
+    laws: &LaneLaws<N>,
     pairs: &mut [Pair; 2],
     (approach, surfaces): &(Approach, Surfaces),
     disks: DiskArrays<'_>,
@@ -203,8 +204,8 @@ pub struct MovingWalls<'a> {
 
 /// Adds the forces between disks and walls.
 #[inline(always)]
-pub fn wall_forces<const SPRING: bool>(
-    laws: &LaneLaws,
+pub fn wall_forces<N: NormalForce, const SPRING: bool>(
+    laws: &LaneLaws<N>,
     contacts: &mut [WallContact],
     walls: MovingWalls<'_>,
     disks: DiskArrays<'_>,
@@ -217,12 +218,12 @@ pub fn wall_forces<const SPRING: bool>(
     };
     let (twos, rest) = contacts.as_chunks_mut();
     for two in twos {
-        two_wall_contacts::<SPRING>(laws, two, walls, disks, forces, [0.0; 2], sums);
+        two_wall_contacts::<N, SPRING>(laws, two, walls, disks, forces, [0.0; 2], sums);
     }
     if let [last] = rest {
         let mut two = [*last; 2];
         two[1].spring = SpringMemory::OPEN;
-        two_wall_contacts::<SPRING>(laws, &mut two, walls, disks, forces, [0.0, f64::INFINITY], sums);
+        two_wall_contacts::<N, SPRING>(laws, &mut two, walls, disks, forces, [0.0, f64::INFINITY], sums);
         *last = two[0];
     }
 }
@@ -244,8 +245,8 @@ impl Sliding for WallSurfaces {
 
 /// `aside` \[m\] moves each disk away from its wall: a second contact that is not there is infinitely far.
 #[inline(always)]
-fn two_wall_contacts<const SPRING: bool>(
-    laws: &LaneLaws,
+fn two_wall_contacts<N: NormalForce, const SPRING: bool>(
+    laws: &LaneLaws<N>,
     contacts: &mut [WallContact; 2],
     MovingWalls { walls, base }: MovingWalls<'_>,
     disks: DiskArrays<'_>,

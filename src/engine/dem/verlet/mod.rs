@@ -12,6 +12,7 @@ mod state;
 
 use std::marker::PhantomData;
 
+use crate::contact::{LinearDashpot, NormalForce};
 use crate::drive::{Drive, Motion};
 use crate::error::are_sane;
 use crate::geometry::Disk;
@@ -29,10 +30,10 @@ use contact_laws::{ForceSums, LaneLaws, LaneSums};
 use forces::{DiskArrays, ForceArrays, MovingWalls, pair_forces, wall_forces};
 use neighbour_list::{NeighbourList, farthest_squared, inner_margin};
 
-/// Steps by the integrator I.
+/// Steps by the integrator I, with the normal force N.
 #[derive(Debug, Clone)]
-pub struct PredictorCorrector<I> {
-    constants: SoftDisks,
+pub struct PredictorCorrector<I, N = LinearDashpot> {
+    constants: SoftDisks<N>,
     /// 1/m, 1/m, R/I of each disk, then 1 for each impulse of a wall.
     inverse_mass: Vec<f64>,
     /// Weight as a flat force.
@@ -45,12 +46,13 @@ pub struct PredictorCorrector<I> {
     integrator: PhantomData<I>,
 }
 
-impl<I: Integrator> Stepper for PredictorCorrector<I> {
+impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
+    type Normal = N;
     type Disks = Disks;
 
     const WORK_OF_STEP: f64 = 0.1;
 
-    fn at_rest(setup: SoftDiskSetup, disks: &[Disk]) -> (Self, Disks) {
+    fn at_rest(setup: SoftDiskSetup<N>, disks: &[Disk]) -> (Self, Disks) {
         let (mut position, mut inverse_mass, mut weight) = (Vec::new(), Vec::new(), Vec::new());
         for (disk, mass) in disks.iter().zip(&setup.masses) {
             position.extend([disk.x, disk.y, 0.0]);
@@ -82,7 +84,7 @@ impl<I: Integrator> Stepper for PredictorCorrector<I> {
         (stepper, disks)
     }
 
-    fn constants(&self) -> &SoftDisks {
+    fn constants(&self) -> &SoftDisks<N> {
         &self.constants
     }
 
@@ -187,7 +189,7 @@ impl<I: Integrator> Stepper for PredictorCorrector<I> {
     }
 }
 
-impl<I: Integrator> PredictorCorrector<I> {
+impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
     /// What lies between prediction and correction of a step: base, neighbours, forces and the balance of energy.
     fn evaluate_prediction<D: Drive>(
         &mut self,
@@ -245,12 +247,12 @@ impl<I: Integrator> PredictorCorrector<I> {
         let arrays = DiskArrays::new(positions, velocities, radii, &self.arc_lengths);
         let laws = LaneLaws::new(&setup.laws, duration);
         let mut sums = LaneSums::default();
-        pair_forces::<SPRING>(&laws, &mut disks.pairs, arrays, forces.on_disks, &mut sums);
+        pair_forces::<N, SPRING>(&laws, &mut disks.pairs, arrays, forces.on_disks, &mut sums);
         let walls = MovingWalls {
             walls: &setup.walls,
             base,
         };
-        wall_forces::<SPRING>(&laws, &mut disks.wall_contacts, walls, arrays, &mut forces, &mut sums);
+        wall_forces::<N, SPRING>(&laws, &mut disks.wall_contacts, walls, arrays, &mut forces, &mut sums);
         let vertical = forces.from_walls.iter().zip(&setup.walls);
         disks.base_force = vertical.map(|(force, wall)| wall.follows_base * force[1]).sum();
         sums.total::<SPRING>(closed_before)

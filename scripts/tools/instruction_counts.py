@@ -2,7 +2,8 @@
 
 Instructions are those of `jostle run` under `valgrind --tool=callgrind`, of a long run less a short one, so that
 start-up, files and the progress bar drop out. They depend on compiler, profile and the C library's mathematics, not on
-load. The pinned counts (`paths.INSTRUCTION_COUNTS`) hold for the default release profile.
+load. The pinned counts (`paths.INSTRUCTION_COUNTS`) hold for the profile `shipped`:
+`cargo build --profile shipped -p jostle-cli`, then `--program target/shipped/jostle`.
 """
 
 import re

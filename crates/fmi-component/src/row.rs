@@ -26,8 +26,6 @@ pub enum Read<M> {
     },
     /// A whole number or the number of an option.
     Integer(fn(&M) -> i64),
-    /// Element of an array of whole numbers, counted from 0.
-    IntegerElement(fn(&M, usize) -> i64, usize),
 }
 
 // A derived one would ask for M: Clone.
@@ -42,7 +40,6 @@ impl<M> Clone for Read<M> {
                 count,
             },
             Self::Integer(read) => Self::Integer(read),
-            Self::IntegerElement(read, index) => Self::IntegerElement(read, index),
         }
     }
 }
@@ -59,7 +56,6 @@ impl<M> Read<M> {
         let mut real = [0.0];
         match *self {
             Self::Integer(read) => Value::Integer(read(model)),
-            Self::IntegerElement(read, index) => Value::Integer(read(model, index)),
             _ => {
                 self.fill(model, &mut real);
                 Value::Real(real[0])
@@ -79,7 +75,7 @@ impl<M> Read<M> {
                 fill(model, index, &mut out[..filled]);
                 return filled;
             }
-            Self::Integer(_) | Self::IntegerElement(..) => return 0,
+            Self::Integer(_) => return 0,
         }
         1
     }
@@ -234,20 +230,6 @@ impl<M> Row<M> {
             let name = format!("{name}[{number}]");
             Self::make(name, what.replace("{}", &number), Causality::Output, kind, read)
         })
-    }
-
-    /// The same row, read as element `index` (counted from 0) of an array of reals: for names with an index inside.
-    #[must_use]
-    pub fn read_element(mut self, read: fn(&M, usize) -> f64, index: usize) -> Self {
-        self.read = Some(Read::RealElement(read, index));
-        self
-    }
-
-    /// The same row, read as element `index` (counted from 0) of an array of whole numbers.
-    #[must_use]
-    pub fn read_integer_element(mut self, read: fn(&M, usize) -> i64, index: usize) -> Self {
-        self.read = Some(Read::IntegerElement(read, index));
-        self
     }
 
     /// The same output as a calculated parameter: known when initialisation ends, constant from then on.

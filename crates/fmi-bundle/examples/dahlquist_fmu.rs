@@ -1,5 +1,5 @@
-//! Writes the example model of `fmi-component` as FMUs of both versions: `van_der_pol_fmu LIBRARY FOLDER`, with the library that
-//! `cargo build --release -p fmi-component --example van_der_pol` makes.
+//! Writes the example model of `fmi-component` as FMUs of both versions: `dahlquist_fmu LIBRARY FOLDER`, with the library that
+//! `cargo build --release -p fmi-component --example dahlquist` makes.
 #![allow(unsafe_code)] // the model's file exports C functions
 
 use std::path::Path;
@@ -8,14 +8,14 @@ use std::process::ExitCode;
 use fmi_bundle::{Component, Version, write};
 use fmi_component::{ModelType, Result};
 
-#[path = "../../fmi-component/examples/van_der_pol.rs"]
-mod van_der_pol;
-use van_der_pol::VanDerPol;
+#[path = "../../fmi-component/examples/dahlquist.rs"]
+mod dahlquist;
+use dahlquist::Dahlquist;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [library, folder] = arguments.as_slice() else {
-        eprintln!("usage: van_der_pol_fmu LIBRARY FOLDER");
+        eprintln!("usage: dahlquist_fmu LIBRARY FOLDER");
         return ExitCode::from(2);
     };
     match write_both(Path::new(library), Path::new(folder)) {
@@ -28,10 +28,10 @@ fn main() -> ExitCode {
 }
 
 fn write_both(library: &Path, folder: &Path) -> Result<()> {
-    let component = Component::new(&ModelType::of::<VanDerPol>(), &[])?;
+    let component = Component::new(&ModelType::of::<Dahlquist>(), &[])?;
     for (version, name) in [
-        (Version::Two, "van_der_pol.fmi2.fmu"),
-        (Version::Three, "van_der_pol.fmi3.fmu"),
+        (Version::Two, "dahlquist.fmi2.fmu"),
+        (Version::Three, "dahlquist.fmi3.fmu"),
     ] {
         write(&component, version, library, &folder.join(name))?;
     }

@@ -52,6 +52,9 @@ pub fn find_library(identifier: &str, folders: &[&Path]) -> Result<PathBuf> {
 pub fn write(component: &Component, version: Version, library: &Path, out: &Path) -> Result<()> {
     let binary = fs::read(library).map_err(|error| cannot_read(library, &error))?;
     let bytes = pack(component, version, &binary)?;
+    if fs::metadata(out).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+        return Err(Error::file(out, "it is a device, no file", "Give the name of a file."));
+    }
     // Beside the target and then renamed, so that nobody meets half an FMU.
     let partial = out.with_added_extension("part");
     fs::write(&partial, &bytes)

@@ -131,7 +131,10 @@ impl Variable {
             }
         };
         value.ok_or_else(|| {
-            let digits = "Write it with digits, such as 2 or 1.5e-3.";
+            let digits = match self.kind {
+                Kind::Real(_) => "Write it with digits, such as 2 or 1.5e-3.",
+                _ => "Write it with digits alone, such as 2.",
+            };
             let (allowed, remedy) = match self.kind {
                 Kind::Real(_) => ("a number".into(), digits),
                 Kind::Integer { .. } | Kind::Long { .. } => ("a whole number of 64 bits".into(), digits),

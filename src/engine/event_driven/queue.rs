@@ -29,6 +29,10 @@ const MOST_BUCKETS: usize = 1 << 15;
 const BUCKETS_PER_DISK: usize = 4;
 /// Mean delays of an event that the buckets cover together.
 const DELAYS_COVERED: f64 = 4.0;
+/// Entries per disk after which stale ones are removed, and as many for any number of disks. Where events come much more often
+/// than the buckets were set up for, stale entries would else pile up until their time comes.
+const ENTRIES_PER_DISK: usize = 64;
+const ENTRIES_AT_LEAST: usize = 4096;
 
 /// Calendar with lazily removed entries.
 #[derive(Debug, Clone, Default)]
@@ -41,6 +45,8 @@ pub struct Calendar {
     rate: f64,
     /// Number of the current bucket since time zero.
     base: i64,
+    /// Entries that may be made until stale ones are removed.
+    until_removal: usize,
 }
 
 impl Calendar {
@@ -55,17 +61,26 @@ impl Calendar {
         let rate = count as f64 / (DELAYS_COVERED * mean_delay);
         self.rate = if rate.is_finite() && rate > 0.0 { rate } else { 1.0 };
         self.base = self.bucket_of(time);
+        self.until_removal = Self::entries_between_removals(disks);
+    }
+
+    fn entries_between_removals(disks: usize) -> usize {
+        ENTRIES_AT_LEAST.max(ENTRIES_PER_DISK * disks)
     }
 
     /// Notes the next event of a disk. Its earlier entry becomes stale.
     #[inline]
     pub fn schedule(&mut self, disk: u32, time: f64) {
+        self.until_removal = self.until_removal.saturating_sub(1);
         self.put(Entry { time, disk });
     }
 
     /// The earliest valid event, left in place. An entry is valid if its time is the `next_time` of its disk.
     #[inline]
     pub fn peek(&mut self, next_time: impl Fn(u32) -> f64) -> Option<(f64, u32)> {
+        if self.until_removal == 0 {
+            self.remove_stale(&next_time);
+        }
         loop {
             while let Some(entry) = self.current.last() {
                 if next_time(entry.disk) == entry.time {
@@ -139,6 +154,19 @@ impl Calendar {
         self.leap(next_time)
     }
 
+    /// Removes what is no longer valid, wherever it waits. The order of events stays.
+    #[cold]
+    fn remove_stale(&mut self, next_time: &impl Fn(u32) -> f64) {
+        let valid = |entry: &Entry| next_time(entry.disk) == entry.time;
+        let lists = self.buckets.iter_mut().chain([&mut self.current, &mut self.far]);
+        let mut left = 0;
+        for list in lists {
+            list.retain(valid);
+            left += list.len();
+        }
+        self.until_removal = Self::entries_between_removals(left);
+    }
+
     /// Nothing in a whole year of buckets: goes straight to the earliest of the far events.
     #[cold]
     fn leap(&mut self, next_time: &impl Fn(u32) -> f64) -> bool {
@@ -191,6 +219,27 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Two disks meet a million times before the third has its event, which the buckets were set up for.
+    #[test]
+    fn events_that_come_too_often_leave_no_stale_entries_behind() {
+        let mut calendar = Calendar::default();
+        let mut next = [1e-6, 1e-6, 1e3];
+        calendar.reset(next.len(), 1e3, 0.0);
+        for (disk, time) in next.iter().enumerate() {
+            calendar.schedule(disk as u32, *time);
+        }
+        for _ in 0..1_000_000 {
+            let (time, disk) = calendar.peek(|disk| next[disk as usize]).unwrap();
+            calendar.pop();
+            let other = 1 - disk as usize;
+            (next[disk as usize], next[other]) = (time + 1e-6, time + 2e3);
+            calendar.schedule(disk, next[disk as usize]);
+            calendar.schedule(other as u32, next[other]);
+        }
+        let entries: usize = calendar.buckets.iter().map(Vec::len).sum();
+        assert!(entries + calendar.current.len() + calendar.far.len() <= 2 * ENTRIES_AT_LEAST);
     }
 
     #[test]

@@ -7,11 +7,13 @@ mod judge;
 mod matrix;
 mod watch;
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::Args;
+use jostle::Error;
 
 use judge::{Judged, judge};
 use matrix::Probe;
@@ -42,6 +44,7 @@ pub struct Stability {
 
 impl Stability {
     pub fn execute(self) -> Result<()> {
+        let probes = self.chosen()?;
         std::fs::create_dir_all(&self.out)
             .with_context(|| format!("the folder {} cannot be made", self.out.display()))?;
         let path = self.out.join(if self.long { "long.csv" } else { "cases.csv" });
@@ -49,7 +52,7 @@ impl Stability {
         let mut writer = csv::Writer::from_path(&path).with_context(cannot)?;
         writer.write_record(Judged::HEADER).with_context(cannot)?;
         let (mut counts, began) = ([0; 3], Instant::now());
-        for probe in self.chosen() {
+        for probe in probes {
             let judged = judge(&probe, if self.long { f64::INFINITY } else { self.budget });
             counts[judged.rank()] += 1;
             println!("{}", judged.line(&probe));
@@ -65,19 +68,47 @@ impl Stability {
         Ok(())
     }
 
-    fn chosen(&self) -> Vec<Probe> {
+    /// The cases of the names that are given.
+    ///
+    /// # Errors
+    /// A name that no case has.
+    fn chosen(&self) -> Result<Vec<Probe>, Error> {
         let mut probes = if self.long { matrix::long() } else { matrix::all() };
+        let known: BTreeSet<&str> = probes
+            .iter()
+            .flat_map(|probe| [probe.scene, probe.engine, probe.dimension])
+            .collect();
+        if let Some(unknown) = self.only.iter().find(|name| !known.contains(name.as_str())) {
+            let allowed = format!("one of: {}", Vec::from_iter(known).join(", "));
+            return Err(Error::parameter("--only", unknown, allowed, "Name one of these."));
+        }
         probes.retain(|probe| {
             let names = [probe.scene, probe.engine, probe.dimension];
             self.only.is_empty() || self.only.iter().any(|only| names.contains(&only.as_str()))
         });
-        probes
+        Ok(probes)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_unknown_name_is_refused_with_the_known_ones() {
+        let stability = Stability {
+            out: PathBuf::new(),
+            budget: 1.0,
+            only: vec!["wegde".into()],
+            long: false,
+        };
+        let message = stability.execute().unwrap_err().to_string();
+        assert!(
+            message.starts_with("--only = wegde is not allowed: one of: "),
+            "{message}"
+        );
+        assert!(message.contains("wedge"), "{message}");
+    }
 
     /// The corners of the matrix that are cheap. Whatever is violated is a defect; nothing may be violated here.
     #[test]

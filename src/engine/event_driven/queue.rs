@@ -76,7 +76,7 @@ impl Calendar {
     }
 
     /// The earliest valid event, left in place. An entry is valid if its time is the `next_time` of its disk.
-    #[inline]
+    #[inline(always)] // called from one place, once an event
     pub fn peek(&mut self, next_time: impl Fn(u32) -> f64) -> Option<(f64, u32)> {
         if self.until_removal == 0 {
             self.remove_stale(&next_time);

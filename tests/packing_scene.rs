@@ -276,3 +276,30 @@ fn packing_starts_on_the_base() {
         .fold(f64::INFINITY, f64::min);
     assert!((lowest - 0.25).abs() < 1e-12);
 }
+
+/// Small disks a thousand times smaller than the others: deep in a run the located engine met a contact that changed at the very
+/// end of a step, and divided by the time that was left. Both engines now refuse the same overlap, at the same time.
+#[test]
+fn both_soft_engines_refuse_the_same_overlap_at_radius_ratio_1000() {
+    let radii = [
+        ("disk.radius_small", 2e-5),
+        ("disk.radius_medium", 0.02),
+        ("disk.radius_large", 0.02),
+    ];
+    fn refusal<M: SoftMethod>(radii: &[(&str, f64)]) -> (f64, String) {
+        let mut packing = simulation_of::<SoftPacking<M, Sine>>(60, radii);
+        let sample = 1e-6;
+        for count in 1..400 {
+            let time = f64::from(count) * sample;
+            if let Err(error) = packing.advance_to(time) {
+                return (time, error.to_string());
+            }
+        }
+        panic!("no overlap was refused");
+    }
+    let (located, verlet) = (refusal::<EventStepper>(&radii), refusal::<Verlet>(&radii));
+    for (_, message) in [&located, &verlet] {
+        assert!(message.contains("an overlap of 1.0000"), "{message}");
+    }
+    assert!((located.0 - verlet.0).abs() < 1.5e-6, "{located:?} {verlet:?}");
+}

@@ -117,6 +117,10 @@ impl<F: ContactFrame> ContactStep<'_, F> {
             };
             elapsed += x * segment.length;
             start = next_phase(laws, event, start, &mut motion);
+            // An event at the very end leaves no time for a further segment, whose rates would be divided by zero.
+            if elapsed >= self.step {
+                break;
+            }
         }
         self.finish(laws, start, motion, given)
     }

@@ -7,7 +7,7 @@ mod fmus;
 
 use fmi_bundle::{TOLERANCE, reference};
 use jostle::scene::catalogue::MODELS;
-use jostle::scene::{Causality, Kind, ModelType, Value};
+use jostle::scene::{Causality, Kind, ModelType};
 
 /// Largest relative difference between the reference and a run in which gravity is one unit in the last place greater:
 /// that touches every collision, as another rounding of a sine would.
@@ -43,10 +43,7 @@ fn growth(model: &ModelType) -> f64 {
                 Kind::Real(quantity) => quantity.nominal,
                 _ => 1.0,
             };
-            let found = match twin.value(position).unwrap() {
-                Value::Real(real) => real,
-                Value::Integer(integer) => integer as f64,
-            };
+            let found = twin.value(position).unwrap().to_f64();
             let size = rows.iter().map(|row| row[index].abs()).fold(nominal, f64::max);
             largest = largest.max((found - row[index]).abs() / size);
         }

@@ -144,9 +144,6 @@ fn describe(row: &Variable, [name, unit, description, options]: [*const c_char; 
         kind,
         min,
         max,
-        start: match row.start() {
-            scene::Value::Real(real) => real,
-            scene::Value::Integer(integer) => integer as f64,
-        },
+        start: row.start().to_f64(),
     }
 }

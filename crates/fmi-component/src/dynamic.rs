@@ -4,16 +4,15 @@
 
 use std::any::Any;
 
-use serde::Serialize;
-use serde::de::DeserializeOwned;
-
 use crate::error::{Error, Result};
 use crate::info::ModelInfo;
 use crate::model::{Model, Reached};
+use crate::saved_bytes;
 use crate::simulation::{Saved, Simulation};
 use crate::structure::StructuralParameters;
+use crate::value::Value;
 use crate::values::Values;
-use crate::variable::{Value, Variable};
+use crate::variable::Variable;
 
 /// A model as a value: what programs need that choose one at run time.
 #[derive(Debug, Clone, Copy)]
@@ -191,11 +190,11 @@ impl<M: Model> DynSimulation for Simulation<M> {
     }
 
     fn saved_to_payload(&self, saved: &DynSaved) -> Result<Vec<u8>> {
-        to_payload(typed::<M::State>(saved)?)
+        saved_bytes::to_payload(typed::<M::State>(saved)?)
     }
 
     fn saved_from_payload(&self, payload: &[u8]) -> Result<DynSaved> {
-        let saved: Saved<M::State> = from_payload(payload)?;
+        let saved: Saved<M::State> = saved_bytes::from_payload(payload)?;
         self.check(&saved)?;
         Ok(DynSaved::of(saved))
     }
@@ -218,24 +217,4 @@ fn typed<State: 'static>(saved: &DynSaved) -> Result<&Saved<State>> {
         .saved
         .downcast_ref()
         .ok_or_else(|| Error::state("it was saved by another model", "Restore it where it was saved."))
-}
-
-fn to_payload(saved: &impl Serialize) -> Result<Vec<u8>> {
-    postcard::to_stdvec(saved)
-        .map_err(|error| Error::state(format!("it cannot be written ({error})"), "Please report this defect."))
-}
-
-fn from_payload<T: DeserializeOwned>(payload: &[u8]) -> Result<T> {
-    match postcard::take_from_bytes(payload) {
-        Ok((saved, [])) => Ok(saved),
-        Ok(_) => Err(damaged("it is too long")),
-        Err(error) => Err(damaged(&error.to_string())),
-    }
-}
-
-fn damaged(what: &str) -> Error {
-    Error::state(
-        format!("the bytes are damaged: {what}"),
-        "Pass the bytes that saving gave, all and unaltered.",
-    )
 }

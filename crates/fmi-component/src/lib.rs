@@ -40,6 +40,7 @@ mod table;
 pub mod times;
 pub mod token;
 mod unit;
+mod value;
 mod values;
 pub mod variable;
 
@@ -55,5 +56,6 @@ pub use standard::{LOG_CATEGORIES, TIME_REFERENCE, TOLERANCE, value_reference};
 pub use structure::StructuralParameters;
 pub use table::Table;
 pub use unit::Unit;
+pub use value::Value;
 pub use values::Values;
-pub use variable::{Causality, Kind, Quantity, TIME, TerminalMember, Value, Variable};
+pub use variable::{Causality, Kind, Quantity, TIME, TerminalMember, Variable};

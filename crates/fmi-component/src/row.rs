@@ -4,7 +4,8 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use crate::unit::Unit;
-use crate::variable::{Causality, Kind, Quantity, TerminalMember, Value, Variable};
+use crate::value::Value;
+use crate::variable::{Causality, Kind, Quantity, TerminalMember, Variable};
 
 /// Fills a slice with the elements of a real array from an index on, counted from 0.
 type Fill<M> = Arc<dyn Fn(&M, usize, &mut [f64]) + Send + Sync>;

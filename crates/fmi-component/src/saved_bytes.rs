@@ -16,8 +16,7 @@ const FORMAT: u32 = 1;
 /// # Errors
 /// The value cannot be written: a defect.
 pub fn write(value: &impl Serialize, owner: &str) -> Result<Vec<u8>> {
-    let payload = postcard::to_stdvec(value)
-        .map_err(|error| Error::state(format!("it cannot be written ({error})"), "Please report this defect."))?;
+    let payload = to_payload(value)?;
     let mut bytes = Vec::with_capacity(MAGIC.len() + 4 + 4 + owner.len() + 8 + payload.len() + 4);
     bytes.extend(MAGIC);
     bytes.extend(FORMAT.to_le_bytes());
@@ -66,11 +65,21 @@ pub fn read<'bytes, Saved: Deserialize<'bytes>>(bytes: &'bytes [u8], owner: &str
     if !reader.rest.is_empty() || checksum != crc32fast::hash(&bytes[..covered]) {
         return Err(damaged("checksum or length do not fit"));
     }
-    let (saved, rest) = postcard::take_from_bytes(payload).map_err(|error| damaged(&error.to_string()))?;
-    if rest.is_empty() {
-        Ok(saved)
-    } else {
-        Err(damaged("it is too long"))
+    from_payload(payload)
+}
+
+/// What [`write()`] puts between header and checksum: for an owner who writes it as a part of another value.
+pub(crate) fn to_payload(value: &impl Serialize) -> Result<Vec<u8>> {
+    postcard::to_stdvec(value)
+        .map_err(|error| Error::state(format!("it cannot be written ({error})"), "Please report this defect."))
+}
+
+/// Reads what [`to_payload`] wrote, all of it.
+pub(crate) fn from_payload<'bytes, Saved: Deserialize<'bytes>>(payload: &'bytes [u8]) -> Result<Saved> {
+    match postcard::take_from_bytes(payload) {
+        Ok((saved, [])) => Ok(saved),
+        Ok(_) => Err(damaged("it is too long")),
+        Err(error) => Err(damaged(&error.to_string())),
     }
 }
 

@@ -14,8 +14,9 @@ use crate::row::{Read, Row};
 use crate::structure::StructuralParameters;
 use crate::table::Table;
 use crate::times::check_time;
+use crate::value::Value;
 use crate::values::Values;
-use crate::variable::{Causality, Value, Variable};
+use crate::variable::{Causality, Variable};
 pub use saving::Saved;
 
 /// One run of a model.
@@ -313,15 +314,9 @@ impl<M: Model> Simulation<M> {
 
     #[cold]
     fn no_value(&self, position: usize) -> Error {
-        let variables = self.variables();
-        match variables.get(position) {
+        match self.variables().get(position) {
             Some(variable) => not_started(&format!("read {}", variable.name)),
-            None => Error::parameter(
-                "position of a variable",
-                position,
-                format!("0 to {}", variables.len().saturating_sub(1)),
-                "Take positions from this same model.",
-            ),
+            None => self.table().no_variable(position),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::error::Error;
 use crate::variable::{Causality, Variable};
 
 /// The variables of a model. Made once per component, shared and never changed.
@@ -74,6 +75,17 @@ impl Table {
     /// Position of the variable called `name`.
     pub fn position(&self, name: &str) -> Option<usize> {
         self.by_name.get(name).copied()
+    }
+
+    /// The refusal of a position at which there is no variable.
+    #[cold]
+    pub(crate) fn no_variable(&self, position: usize) -> Error {
+        Error::parameter(
+            "position of a variable",
+            position,
+            format!("0 to {}", self.variables.len().saturating_sub(1)),
+            "Take positions from this same model.",
+        )
     }
 
     /// Position of the time derivative of the variable at `position`.

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::table::Table;
-use crate::variable::{Causality, Value, Variable};
+use crate::value::Value;
+use crate::variable::{Causality, Variable};
 
 /// The present value of every parameter and input of a [`Table`].
 #[derive(Debug, Clone)]
@@ -52,12 +53,7 @@ impl Values {
                     format!("{} is computed by the model", computed.name),
                     "Set a parameter or an input instead.",
                 ),
-                None => Error::parameter(
-                    "position of a variable",
-                    position,
-                    format!("0 to {}", self.table.variables().len().saturating_sub(1)),
-                    "Take positions from this same model.",
-                ),
+                None => self.table.no_variable(position),
             });
         };
         variable.check(value)?;

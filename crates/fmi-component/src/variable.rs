@@ -3,10 +3,9 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use crate::error::{Error, Result};
 use crate::unit::Unit;
+use crate::value::Value;
 
 /// Name of the independent variable of every component.
 pub const TIME: &str = "time";
@@ -214,25 +213,4 @@ pub fn fingerprint<'a>(version: &str, variables: impl IntoIterator<Item = &'a Va
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
     })
-}
-
-/// A value of a variable.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Value {
-    /// Of a [`Kind::Real`].
-    Real(f64),
-    /// Of any other [`Kind`].
-    Integer(i64),
-}
-
-impl From<f64> for Value {
-    fn from(real: f64) -> Self {
-        Self::Real(real)
-    }
-}
-
-impl From<i64> for Value {
-    fn from(integer: i64) -> Self {
-        Self::Integer(integer)
-    }
 }

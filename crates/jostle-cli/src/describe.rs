@@ -86,7 +86,7 @@ fn line(row: &Variable, run: usize) -> Vec<String> {
         Causality::Output => "output",
     };
     let start = if row.causality.is_settable() {
-        text::value(row.start())
+        row.start().to_string()
     } else {
         "-".into()
     };

@@ -151,7 +151,7 @@ impl<'options> Samples<'options> {
     fn write(&mut self, time: f64, simulation: &dyn DynSimulation) -> Result<(), Failure> {
         let mut record = vec![text::number(time)];
         for &position in &self.outputs {
-            record.push(text::value(simulation.value(position)?));
+            record.push(simulation.value(position)?.to_string());
         }
         self.writer
             .write_record(record)
@@ -186,7 +186,7 @@ fn write_parameters(options: &Run, selected: &Selected, simulation: &dyn DynSimu
             };
             records.push([
                 variable.name.clone(),
-                text::value(simulation.value(position)?),
+                simulation.value(position)?.to_string(),
                 unit.into(),
             ]);
         }

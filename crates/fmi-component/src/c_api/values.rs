@@ -5,7 +5,7 @@ use super::types::Status;
 use crate::error::Result;
 use crate::instance::{Access, Instance, does_not_fit};
 use crate::memory;
-use crate::variable::Value;
+use crate::value::Value;
 
 /// The arrays of a getter (`T = *mut f64`) or setter (`T = *const f64`), each null or of the length given.
 #[derive(Clone, Copy)]

@@ -5,7 +5,8 @@ use crate::arrays;
 use crate::error::{Error, Result};
 use crate::life_cycle::Phase;
 use crate::standard::TIME_REFERENCE;
-use crate::variable::{Causality, Kind, Value, Variable};
+use crate::value::Value;
+use crate::variable::{Causality, Kind, Variable};
 
 /// The type by which an importer reads or writes a variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

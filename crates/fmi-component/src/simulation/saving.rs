@@ -7,7 +7,8 @@ use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::saved_bytes;
 use crate::times::is_simulated;
-use crate::variable::{Value, fingerprint};
+use crate::value::Value;
+use crate::variable::fingerprint;
 
 /// All that a simulation is at one time: parameters and inputs, times, and the state of the model if it has started.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -114,15 +114,7 @@ pub fn count<M: Model>(simulation: &Simulation<M>, name: &str) -> f64 {
     let value = simulation
         .position(name)
         .and_then(|position| simulation.value(position));
-    value.map_or(f64::NAN, number)
-}
-
-/// A value of a variable as a number.
-pub fn number(value: Value) -> f64 {
-    match value {
-        Value::Real(real) => real,
-        Value::Integer(integer) => integer as f64,
-    }
+    value.map_or(f64::NAN, Value::to_f64)
 }
 
 /// Mean of independent numbers and its standard error.

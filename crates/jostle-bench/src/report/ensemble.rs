@@ -11,7 +11,7 @@ use jostle::scene::packing::PackingOnSine;
 use jostle::scene::packing::event_driven::HardPackingOnSine;
 use jostle::scene::{Model, Simulation, Value};
 
-use super::case::{Case, Done, Point, Stopwatch, Trouble, count, known, ladder, mean_and_error, number};
+use super::case::{Case, Done, Point, Stopwatch, Trouble, count, known, ladder, mean_and_error};
 
 const DISKS: u32 = 60;
 const GAMMA: f64 = 4.0;
@@ -101,7 +101,7 @@ fn ensemble<M: Model>(
             packing.advance_to(SETTLED)?;
             (1..=samples).try_fold(0.0, |sum, sample| -> jostle::Result<f64> {
                 packing.advance_to(SETTLED + f64::from(sample) * SAMPLE)?;
-                let squares = (spins..spins + DISKS as usize).map(|spin| Ok(number(packing.value(spin)?).powi(2)));
+                let squares = (spins..spins + DISKS as usize).map(|spin| Ok(packing.value(spin)?.to_f64().powi(2)));
                 Ok(sum + squares.sum::<jostle::Result<f64>>()?)
             })
         })?;

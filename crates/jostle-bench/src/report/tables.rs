@@ -6,7 +6,9 @@ use anyhow::Result;
 
 use super::Measured;
 use super::case::Case;
-use crate::text::{self, write_csv as write};
+use jostle::scene::Value;
+
+use crate::csv_file::write_csv as write;
 
 /// One row for each quantity of each point. A point without a number has its reason in the last column.
 pub fn write_points(path: &Path, case: &Case, measured: &[Measured]) -> Result<()> {
@@ -53,7 +55,7 @@ pub fn write_points(path: &Path, case: &Case, measured: &[Measured]) -> Result<(
 /// Five digits: more would be noise.
 fn short(number: f64) -> String {
     let rounded = format!("{number:.4e}").parse().unwrap_or(number);
-    text::number(rounded)
+    Value::Real(rounded).to_string()
 }
 
 /// `cases.csv`: what the words in the points mean.

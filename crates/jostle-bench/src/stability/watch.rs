@@ -162,7 +162,7 @@ impl Watch {
         let frictionless = probe
             .changes
             .iter()
-            .any(|(name, value)| *name == "contact.friction" && number(*value) == 0.0);
+            .any(|(name, value)| *name == "contact.friction" && value.to_f64() == 0.0);
         if !(probe.scene == "wedge" || probe.scene == "packing" && frictionless) || self.columns.masses == 0.0 {
             return false;
         }
@@ -284,19 +284,12 @@ impl Columns {
 
 /// The parameter or input called `name`; 0 if the scene has none of it.
 pub fn given(simulation: &AnySimulation, name: &str) -> f64 {
-    simulation.given(name).map_or(0.0, number)
+    simulation.given(name).map_or(0.0, Value::to_f64)
 }
 
 /// Value of the variable at `position` as a number.
 fn at(simulation: &AnySimulation, position: usize) -> f64 {
-    simulation.value(position).map_or(f64::NAN, number)
-}
-
-fn number(value: Value) -> f64 {
-    match value {
-        Value::Real(real) => real,
-        Value::Integer(integer) => integer as f64,
-    }
+    simulation.value(position).map_or(f64::NAN, Value::to_f64)
 }
 
 /// Deepest overlap of two disks \[m\].

@@ -1,18 +1,8 @@
-//! Numbers as text, and rows of text as a CSV file.
+//! Rows of text as a CSV file.
 
 use std::path::Path;
 
 use anyhow::{Context, Result};
-
-/// Shortest text that reads back as the same bits; powers of ten where zeros would fill the line.
-pub fn number(value: f64) -> String {
-    let plain = value == 0.0 || !value.is_finite() || (1e-4..1e6).contains(&value.abs());
-    if plain {
-        format!("{value}")
-    } else {
-        format!("{value:e}")
-    }
-}
 
 /// Writes a CSV file.
 ///

@@ -13,12 +13,15 @@ mod rows;
 pub mod soft;
 mod soft_packing;
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact::LinearDashpot;
 use crate::drive::{FollowsInput, Sine};
 use crate::engine::dem::event_located::EventStepper;
 use crate::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
+use crate::scene::disks_on_base::StepReport;
 
-pub use soft_packing::{PackingState, SoftPacking};
+pub use soft_packing::SoftPacking;
 
 /// Packing of soft disks by velocity Verlet, on a base that moves with the drive D, with the normal force N.
 pub type PackingOn<D, N = LinearDashpot> = SoftPacking<PredictorCorrector<VelocityVerlet, N>, D>;
@@ -33,3 +36,14 @@ pub type LocatedPackingOn<D> = SoftPacking<EventStepper, D>;
 pub type LocatedPackingOnInput = LocatedPackingOn<FollowsInput>;
 /// See [`LocatedPackingOn`].
 pub type LocatedPackingOnSine = LocatedPackingOn<Sine>;
+
+/// State of a packing, soft or hard.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PackingState<S> {
+    /// The engine's: disks, contacts or events, and the base.
+    pub engine: S,
+    /// The last communication step.
+    pub report: StepReport,
+    /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
+    pub start_energy: f64,
+}

@@ -1,6 +1,9 @@
 //! What a run shows at the time last asked for: positions, momentum, impulses of the walls, energies.
 
+use nalgebra::Vector2;
+
 use crate::drive::Motion;
+use crate::engine::DiskMotion;
 
 use super::fixed_grid::{FixedGrid, Stepper};
 
@@ -19,6 +22,20 @@ pub struct SoftDiskObservables<'engine> {
     pub energy_lost: f64,
     /// Closed contacts.
     pub contacts: u32,
+}
+
+impl SoftDiskObservables<'_> {
+    /// Motion of a disk, counted from 0.
+    #[inline(always)]
+    pub fn disk(&self, disk: usize) -> DiskMotion {
+        let ([x, y, angle], [vx, vy, angular_velocity]) = (self.positions[disk], self.velocities[disk]);
+        DiskMotion {
+            position: Vector2::new(x, y),
+            velocity: Vector2::new(vx, vy),
+            angle,
+            angular_velocity,
+        }
+    }
 }
 
 /// Energies of the disks \[J\].

@@ -2,8 +2,6 @@
 //!
 //! Made for strong shaking, Gamma of 2 and more, where lasting contacts are rare (P 3.3).
 
-use serde::{Deserialize, Serialize};
-
 use crate::drive::{FollowsInput, Motion};
 use crate::engine::event_driven::{Counts, EventDrivenStop, Moving, Partner};
 use crate::engine::{DiskMotion, MOST_WORK_IN_A_CALL, WorkBudget};
@@ -13,6 +11,7 @@ use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, radii};
 use crate::scene::hard_disks::{self, EnergyRows, HardDisksOnBase};
 use crate::scene::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, info};
 
+use super::PackingState;
 use super::either_base::EitherBase;
 use super::equations;
 use super::hard::{HardDisks, HardEngine, START_GAP};
@@ -37,17 +36,6 @@ pub struct HardPacking<E> {
     report: StepReport,
     /// Total energy at the start \[J\].
     start_energy: f64,
-}
-
-/// State of a [`HardPacking`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct HardPackingState<S> {
-    /// The engine's.
-    pub engine: S,
-    /// The last communication step.
-    pub report: StepReport,
-    /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
-    pub start_energy: f64,
 }
 
 impl<E: HardEngine> HardPacking<E> {
@@ -115,7 +103,7 @@ fn refused_step(stop: EventDrivenStop) -> Error {
 }
 
 impl<E: HardEngine> Model for HardPacking<E> {
-    type State = HardPackingState<E::State>;
+    type State = PackingState<E::State>;
 
     fn info() -> ModelInfo {
         SceneInfo {
@@ -201,7 +189,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
     }
 
     fn state(&self) -> Self::State {
-        HardPackingState {
+        PackingState {
             engine: self.engine.copied_state(),
             report: self.report,
             start_energy: self.start_energy,

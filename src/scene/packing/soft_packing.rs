@@ -1,12 +1,10 @@
 //! The packing of soft disks: rows, steps and states for any engine of soft disks.
 
-use serde::{Deserialize, Serialize};
-
 use crate::drive::Motion;
 use crate::engine::dem::{FixedGrid, GridState, SoftDiskSetup, TimeStepLimits};
 use crate::engine::{DiskMotion, Engine, MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::are_sane;
-use crate::geometry::{Disk, Vector2};
+use crate::geometry::Disk;
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, names, radii};
 use crate::scene::soft_disks::{SceneNormalForce, chosen_time_step, contact_laws, refused_step};
@@ -14,7 +12,7 @@ use crate::scene::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralPa
 
 use super::initial_packing::{self, NAME};
 use super::rows::{self, AtStart};
-use super::{equations, soft::SoftMethod};
+use super::{PackingState, equations, soft::SoftMethod};
 
 /// Index of the vibrating floor among the walls.
 const FLOOR: usize = 0;
@@ -38,17 +36,6 @@ pub struct SoftPacking<S: SoftMethod, D> {
     report: StepReport,
     /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
     start_energy: f64,
-}
-
-/// State of a [`SoftPacking`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PackingState<E> {
-    /// Disks, contacts and base on the grid of time.
-    pub engine: E,
-    /// The last communication step.
-    pub report: StepReport,
-    /// Total energy at the start \[J\].
-    pub start_energy: f64,
 }
 
 impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
@@ -181,14 +168,7 @@ impl<S: SoftMethod, D: BaseDrive> DisksOnBase for SoftPacking<S, D> {
     }
 
     fn disk_at(&self, _time: f64, disk: usize) -> DiskMotion {
-        let now = self.engine.observables();
-        let ([x, y, angle], [vx, vy, angular_velocity]) = (now.positions[disk], now.velocities[disk]);
-        DiskMotion {
-            position: Vector2::new(x, y),
-            velocity: Vector2::new(vx, vy),
-            angle,
-            angular_velocity,
-        }
+        self.engine.observables().disk(disk)
     }
 
     fn base_at(&self, _time: f64) -> Motion {

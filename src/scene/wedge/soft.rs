@@ -126,14 +126,7 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
     }
 
     fn disk_at(&self, _time: f64) -> DiskMotion {
-        let now = self.observables();
-        let ([x, y, angle], [vx, vy, angular_velocity]) = (now.positions[0], now.velocities[0]);
-        DiskMotion {
-            position: Vector2::new(x, y),
-            velocity: Vector2::new(vx, vy),
-            angle,
-            angular_velocity,
-        }
+        self.observables().disk(0)
     }
 
     fn base_at(&self, _time: f64) -> Motion {

@@ -7,57 +7,23 @@ mod support;
 
 use jostle::drive::{FollowsInput, Sine};
 use jostle::engine::Engine;
+use jostle::engine::dem::event_located::EventStepper;
 use jostle::engine::dem::{ContactLaws, EventLocated, SoftDiskSetup, TimeStepLimits, Verlet};
 use jostle::geometry::{Disk, Wall};
-use support::order;
-use support::reference_impact::Impact;
 use support::soft_disks::{RADIUS, at_rest, laws, mass};
+use support::{order, thrown_disk};
 
 fn disk(x: f64, y: f64, radius: f64) -> Disk {
     Disk { x, y, radius }
 }
 
-/// A disk thrown at the floor, without gravity. The touch falls at the fraction `phase` of a time step.
-fn impact(laws: ContactLaws, velocity: [f64; 3], time_step: f64, phase: f64) -> [f64; 3] {
-    let setup = SoftDiskSetup {
-        laws,
-        walls: vec![Wall::vibrating_floor()],
-        masses: vec![mass(RADIUS)],
-        gravity: 0.0,
-        time_step,
-        start_time: 0.0,
-    };
-    let gap = -velocity[1] * time_step * (3.0 + phase);
-    let mut engine = EventLocated::new(setup, &[disk(0.0, RADIUS + gap, RADIUS)], at_rest());
-    engine.set_motion(|disks| disks.velocities[0] = velocity);
-    engine.advance_to(0.01).unwrap();
-    assert_eq!(engine.now().contacts, 0);
-    engine.now().disks.velocities[0]
-}
-
-/// Root mean square over where in a step the touch falls, of the errors of e_n and of u_t'.
+/// Errors of e_n and of u_t' of a disk thrown at the floor.
 fn impact_errors(laws: ContactLaws, velocity: [f64; 3], time_step: f64) -> [f64; 2] {
-    let tangential = velocity[0] + RADIUS * velocity[2];
-    let reference = Impact {
-        mass: mass(RADIUS),
-        normal_stiffness: laws.normal.stiffness,
-        normal_damping: laws.normal.damping,
-        tangential_stiffness: laws.tangential.stiffness,
-        friction: laws.tangential.friction,
-        normal_velocity: velocity[1],
-        tangential_velocity: tangential,
-    };
-    let (_, tangential_after) = reference.velocities_after(4000);
-    let restitution = laws.normal.restitution(mass(RADIUS));
-    let phases = 16;
-    let mut squares = [0.0; 2];
-    for phase in 0..phases {
-        let phase = (f64::from(phase) + 0.5) / f64::from(phases);
-        let after = impact(laws, velocity, time_step, phase);
-        squares[0] += (after[1] / -velocity[1] - restitution).powi(2);
-        squares[1] += ((after[0] + RADIUS * after[2] - tangential_after) / tangential).powi(2);
-    }
-    squares.map(|square| (square / f64::from(phases)).sqrt())
+    thrown_disk::errors(laws, velocity, |phase| {
+        thrown_disk::velocity_after::<EventStepper>(laws, velocity, time_step, phase, |disks| {
+            disks.velocities[0] = velocity;
+        })
+    })
 }
 
 /// Normal restitution against P 4.56 and tangential against a tight integration of the tangential law.

@@ -6,6 +6,7 @@ pub mod impact_propagator;
 pub mod reference_impact;
 pub mod sawtooth_distance;
 pub mod soft_disks;
+pub mod thrown_disk;
 
 use jostle::scene::{Kind, Model, Simulation, StructuralParameters, Value};
 

@@ -1,6 +1,8 @@
 //! Impact of a disk on a wall at rest by the equations of P 4.2 to 4.6, integrated apart from the engine: classical
 //! Runge-Kutta on each smooth phase, phases ended by bisection at the instant of the switch.
 
+use jostle::engine::dem::ContactLaws;
+
 /// One impact: material, and the velocities at touch.
 #[derive(Debug, Clone, Copy)]
 pub struct Impact {
@@ -19,6 +21,19 @@ pub struct Impact {
 type ImpactState = [f64; 4];
 
 impl Impact {
+    /// A disk that touches with this velocity (x, y, angular) of its centre.
+    pub fn of_disk(laws: &ContactLaws, mass: f64, radius: f64, velocity: [f64; 3]) -> Self {
+        Self {
+            mass,
+            normal_stiffness: laws.normal.stiffness,
+            normal_damping: laws.normal.damping,
+            tangential_stiffness: laws.tangential.stiffness,
+            friction: laws.tangential.friction,
+            normal_velocity: velocity[1],
+            tangential_velocity: velocity[0] + radius * velocity[2],
+        }
+    }
+
     fn force(&self, [overlap, rate, ..]: ImpactState) -> f64 {
         self.normal_stiffness * overlap + self.normal_damping * rate
     }

@@ -124,16 +124,7 @@ fn curves(case: &str, steps: &[f64], run: impl Fn(&Method, f64) -> (f64, f64, u6
 fn impact() {
     const RADIUS: f64 = 0.02;
     let velocity: [f64; 3] = [0.05, -0.3, 2.0];
-    let tangential = velocity[0] + RADIUS * velocity[2];
-    let reference = Impact {
-        mass: mass(RADIUS),
-        normal_stiffness: LAWS.normal.stiffness,
-        normal_damping: LAWS.normal.damping,
-        tangential_stiffness: LAWS.tangential.stiffness,
-        friction: LAWS.tangential.friction,
-        normal_velocity: velocity[1],
-        tangential_velocity: tangential,
-    };
+    let reference = Impact::of_disk(&LAWS, mass(RADIUS), RADIUS, velocity);
     let (_, tangential_after) = reference.velocities_after(4000);
     let restitution = LAWS.normal.restitution(mass(RADIUS));
     let duration = std::f64::consts::PI * (mass(RADIUS) / LAWS.normal.stiffness).sqrt();
@@ -157,7 +148,7 @@ fn impact() {
             let run = method.1(&case, step);
             let after = run.rates[0];
             let normal = after[1] / -velocity[1] - restitution;
-            let surface = (after[0] + RADIUS * after[2] - tangential_after) / tangential;
+            let surface = (after[0] + RADIUS * after[2] - tangential_after) / reference.tangential_velocity;
             squares += f64::max(normal * normal, surface * surface) / 16.0;
             seconds += run.seconds / 16.0;
             evaluations += run.evaluations;

@@ -2,8 +2,6 @@
 //! what `fuzz/run` does for hours, and the inputs that it has found worth keeping.
 #![allow(unsafe_code, dead_code, clippy::unwrap_used, clippy::undocumented_unsafe_blocks)]
 
-#[path = "../fuzz/harness/any_scene.rs"]
-mod any_scene;
 #[path = "../fuzz/harness/corpus.rs"]
 mod corpus;
 #[path = "../fuzz/harness/fmi.rs"]
@@ -12,17 +10,12 @@ mod fmi;
 mod fmi_calls;
 #[path = "../fuzz/harness/hand.rs"]
 mod hand;
+#[path = "../fuzz/harness/any_scene.rs"]
+mod library;
 #[path = "../fuzz/harness/lives.rs"]
 mod lives;
 #[path = "../fuzz/harness/tokens.rs"]
 mod tokens;
-
-mod library {
-    pub use super::any_scene::{
-        Boolean, CallbackFunctions, Fmi2Log, IntermediateUpdate, Opaque, Status, choices, fmi2, fmi3, tokens,
-    };
-    pub const LONGEST_STEP: f64 = 0.05;
-}
 
 use proptest::prelude::*;
 

@@ -18,6 +18,9 @@ pub const ANY_SCENE: ModelType = ModelType {
     prepare,
 };
 
+/// Longest step that is asked for \[s\].
+pub const LONGEST_STEP: f64 = 0.05;
+
 /// Work of one call.
 const MOST_WORK: u64 = 2000;
 

@@ -7,22 +7,14 @@ mod fmi;
 mod fmi_calls;
 #[path = "../harness/hand.rs"]
 mod hand;
+#[path = "../harness/oscillators.rs"]
+mod library;
 #[path = "../harness/lives.rs"]
 mod lives;
 #[path = "../harness/mutate.rs"]
 mod mutate;
 #[path = "../harness/tokens.rs"]
 mod tokens;
-
-mod library {
-    pub use fmi_component::c_api::{Boolean, CallbackFunctions, Fmi2Log, IntermediateUpdate, Opaque, Status};
-    pub use oscillators::{fmi2, fmi3};
-    pub const LONGEST_STEP: f64 = 1e300;
-    pub fn tokens() -> (Vec<String>, usize) {
-        let model = fmi_component::ModelType::of::<oscillators::Oscillators>();
-        super::tokens::of(&model, &[&[("bodies", 3)], &[("bodies", 1)]])
-    }
-}
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fmi_calls::run(bytes));
 libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, most: usize, seed: u32| {

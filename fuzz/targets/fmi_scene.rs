@@ -1,27 +1,20 @@
 //! Both versions of FMI with every scene that is shipped, small ones, several kinds of them in one run.
 #![no_main]
 
-#[path = "../harness/any_scene.rs"]
-mod any_scene;
 #[path = "../harness/fmi.rs"]
 mod fmi;
 #[path = "../harness/fmi_calls.rs"]
 mod fmi_calls;
 #[path = "../harness/hand.rs"]
 mod hand;
+#[path = "../harness/any_scene.rs"]
+mod library;
 #[path = "../harness/lives.rs"]
 mod lives;
 #[path = "../harness/mutate.rs"]
 mod mutate;
 #[path = "../harness/tokens.rs"]
 mod tokens;
-
-mod library {
-    pub use super::any_scene::{
-        Boolean, CallbackFunctions, Fmi2Log, IntermediateUpdate, Opaque, Status, choices, fmi2, fmi3, tokens,
-    };
-    pub const LONGEST_STEP: f64 = 0.05;
-}
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fmi_calls::run(bytes));
 libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, most: usize, seed: u32| {

@@ -10,20 +10,12 @@ mod fmi;
 mod fmi_calls;
 #[path = "../../../fuzz/harness/hand.rs"]
 mod hand;
+#[path = "../../../fuzz/harness/oscillators.rs"]
+mod library;
 #[path = "../../../fuzz/harness/lives.rs"]
 mod lives;
 #[path = "../../../fuzz/harness/tokens.rs"]
 mod tokens;
-
-mod library {
-    pub use fmi_component::c_api::{Boolean, CallbackFunctions, Fmi2Log, IntermediateUpdate, Opaque, Status};
-    pub use oscillators::{fmi2, fmi3};
-    pub const LONGEST_STEP: f64 = 1e300;
-    pub fn tokens() -> (Vec<String>, usize) {
-        let model = fmi_component::ModelType::of::<oscillators::Oscillators>();
-        super::tokens::of(&model, &[&[("bodies", 3)], &[("bodies", 1)]])
-    }
-}
 
 use proptest::prelude::*;
 

@@ -21,6 +21,7 @@ use fmi_component::{Error, Result, Version};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
+use crate::check::check_names;
 use crate::component::{Component, Notices};
 use crate::platform::platform;
 use crate::{documentation, model_description, reference, terminals};
@@ -106,7 +107,7 @@ fn cannot_write(out: &Path, length: usize, error: &io::Error) -> Error {
 /// The bytes of the FMU.
 ///
 /// # Errors
-/// Arrays in FMI 2.0, or the archive cannot be made.
+/// Arrays in FMI 2.0, an array with the name of another variable, or the archive cannot be made.
 pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<u8>> {
     if component.arrays && version == Version::Two {
         return Err(Error::parameter(
@@ -116,6 +117,7 @@ pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Ve
             "Write it for FMI 3.0, or with scalar variables.",
         ));
     }
+    check_names(component.names())?;
     let failed = |error: &dyn ToString| Error::call(format!("the archive: {}", error.to_string()), "Try again.");
     let path = format!(
         "binaries/{}/{}{DLL_SUFFIX}",

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use fmi_component::{Kind, ModelInfo, ModelType, Result, StructuralParameters, Table, Variable, arrays, token};
 
+use crate::check::check;
+
 /// Whose work the FMU is, and under which terms it may be used.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Notices {
@@ -42,11 +44,13 @@ impl Component {
     /// no date, notices or icon.
     ///
     /// # Errors
-    /// A structural parameter that the model does not have, or out of its range.
+    /// A structural parameter that the model does not have, or out of its range; variables or facts of the model that no
+    /// importer would read.
     pub fn new(model: &ModelType, structure: &[(&str, u32)]) -> Result<Self> {
         let info = (model.info)();
         let structure = StructuralParameters::choose(&info, structure)?;
-        let table = Arc::new(Table::new((model.variables)(&structure)));
+        let table = Arc::new(Table::try_new((model.variables)(&structure))?);
+        check(&info, table.variables())?;
         Ok(Self {
             model: *model,
             info,
@@ -108,6 +112,12 @@ impl Component {
             true => arrays::name(&variable.name),
             false => &variable.name,
         }
+    }
+
+    /// Names of the FMU's variables.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        let begins = |(position, span): (usize, usize)| (span > 0).then(|| self.name_at(position));
+        self.spans().into_iter().enumerate().filter_map(begins)
     }
 
     /// Whether the FMU's variable that begins at `position` is an array.

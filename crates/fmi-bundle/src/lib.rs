@@ -11,6 +11,7 @@
 #![doc = include_str!("../README.md")]
 
 mod bundle;
+mod check;
 mod component;
 mod documentation;
 mod importer;

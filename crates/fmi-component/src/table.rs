@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::error::Error;
+use crate::error::{Error, Result};
 use crate::variable::{Causality, Variable};
 
 /// The variables of a model. Made once per component, shared and never changed.
@@ -22,44 +22,48 @@ impl std::fmt::Debug for Table {
 }
 
 impl Table {
-    /// Indexes the variables. Two of one name, a computed one before a parameter or input, and a derivative that does not
-    /// exist or has another causality are defects of the model and panic.
+    /// Indexes the variables. What [`Table::try_new`] refuses is a defect of the model and panics.
     pub fn new(variables: Vec<Variable>) -> Self {
+        Self::try_new(variables).unwrap_or_else(|defect| panic!("{defect}"))
+    }
+
+    /// Indexes the variables.
+    ///
+    /// # Errors
+    /// Two variables of one name, a computed one before a parameter or input, or a derivative that does not exist or has
+    /// another causality.
+    pub fn try_new(variables: Vec<Variable>) -> Result<Self> {
+        let defect = |what: String| Err(Error::call(what, "Mend the variables of the model."));
         let mut by_name = HashMap::with_capacity(variables.len());
         for (position, variable) in variables.iter().enumerate() {
-            let earlier = by_name.insert(variable.name.clone(), position);
-            assert!(earlier.is_none(), "two variables are named {}", variable.name);
+            if by_name.insert(variable.name.clone(), position).is_some() {
+                return defect(format!("two variables are named {}", variable.name));
+            }
         }
-        let settable = variables
-            .iter()
-            .take_while(|variable| variable.causality.is_settable())
-            .count();
-        let late = variables[settable..]
-            .iter()
-            .find(|variable| variable.causality.is_settable());
-        assert!(
-            late.is_none(),
-            "{late:?} comes after a variable that the model computes"
-        );
+        let is_settable = |variable: &&Variable| variable.causality.is_settable();
+        let settable = variables.iter().take_while(is_settable).count();
+        if let Some(late) = variables[settable..].iter().find(is_settable) {
+            let what = format!("{} comes after a variable that the model computes", late.name);
+            return defect(what);
+        }
         let mut derivatives = HashMap::new();
         for (position, variable) in variables.iter().enumerate() {
             let Some(name) = &variable.derivative else { continue };
-            let derivative = by_name.get(name).copied();
-            let fits = |at: usize| variables[at].causality == variable.causality;
-            match derivative.filter(|at| fits(*at)) {
-                Some(derivative) => derivatives.insert(position, derivative),
-                None => panic!(
+            let fits = |at: &usize| variables[*at].causality == variable.causality;
+            let Some(derivative) = by_name.get(name).copied().filter(fits) else {
+                return defect(format!(
                     "{name}, the derivative of {}, is no variable of the same causality",
                     variable.name
-                ),
+                ));
             };
+            derivatives.insert(position, derivative);
         }
-        Self {
+        Ok(Self {
             variables,
             settable,
             by_name,
             derivatives,
-        }
+        })
     }
 
     /// All variables, in the order of their value references.

@@ -11,7 +11,13 @@ use crate::xml::{self, Attributes, Xml};
 pub fn write(xml: &mut Xml, layout: &Layout<'_>) -> io::Result<()> {
     match layout.version {
         Version::Two => {
-            xml::element(xml, "Outputs", &vec![], |xml| outputs(xml, layout, "Unknown"))?;
+            // The schema knows no empty lists. A model without outputs may still compute calculated parameters.
+            if layout.positions().any(|position| is_output(layout, position)) {
+                xml::element(xml, "Outputs", &vec![], |xml| outputs(xml, layout, "Unknown"))?;
+            }
+            if !layout.positions().any(|position| is_computed(layout, position)) {
+                return Ok(());
+            }
             xml::element(xml, "InitialUnknowns", &vec![], |xml| {
                 initial_unknowns(xml, layout, "Unknown")
             })
@@ -23,17 +29,25 @@ pub fn write(xml: &mut Xml, layout: &Layout<'_>) -> io::Result<()> {
     }
 }
 
+fn is_output(layout: &Layout<'_>, position: usize) -> bool {
+    layout.variable(position).causality == Causality::Output
+}
+
+fn is_computed(layout: &Layout<'_>, position: usize) -> bool {
+    !layout.variable(position).causality.is_settable()
+}
+
 fn outputs(xml: &mut Xml, layout: &Layout<'_>, element: &str) -> io::Result<()> {
-    let is_output = |position: &usize| layout.variable(*position).causality == Causality::Output;
-    layout.positions().filter(is_output).try_for_each(|position| {
+    let mut outputs = layout.positions().filter(|position| is_output(layout, *position));
+    outputs.try_for_each(|position| {
         let about = vec![reference(layout, position), ("dependencies", String::new())];
         xml::empty(xml, element, &about)
     })
 }
 
 fn initial_unknowns(xml: &mut Xml, layout: &Layout<'_>, element: &str) -> io::Result<()> {
-    let is_computed = |position: &usize| !layout.variable(*position).causality.is_settable();
-    layout.positions().filter(is_computed).try_for_each(|position| {
+    let mut computed = layout.positions().filter(|position| is_computed(layout, *position));
+    computed.try_for_each(|position| {
         let about = [
             vec![reference(layout, position)],
             initial_dependencies(layout, position),

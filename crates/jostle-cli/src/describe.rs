@@ -1,13 +1,11 @@
 //! `jostle describe`: the variables of a scene as a table.
 
-use std::io::{self, Write};
-
 use clap::Args;
 use jostle::scene::{Causality, Kind, Variable};
 
 use crate::failure::Failure;
 use crate::selection::{Selected, Selection};
-use crate::text;
+use crate::{standard_output, text};
 
 /// Lists the variables of a scene: name, causality, unit, range, start value, meaning.
 ///
@@ -28,11 +26,7 @@ pub struct Describe {
 impl Describe {
     pub fn execute(self) -> Result<(), Failure> {
         let page = page(&self.selection.find(self.drive.as_deref())?, self.all);
-        match io::stdout().write_all(page.as_bytes()) {
-            // The reader, such as head, has read enough.
-            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-            written => written.map_err(|error| Failure::file("standard output".as_ref(), error)),
-        }
+        standard_output::write(&page)
     }
 }
 

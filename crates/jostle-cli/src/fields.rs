@@ -10,10 +10,11 @@ use jostle::scene::catalogue::Names;
 use jostle::scene::ratchet::{RatchetOnSine, Resolution};
 use jostle::scene::{Model, ModelType, Simulation};
 
+use crate::csv_file::{self, CsvFile};
 use crate::failure::Failure;
 use crate::run::positive;
 use crate::selection::{Selected, Selection};
-use crate::{assignments, progress, text};
+use crate::{assignments, progress, standard_output, text};
 
 /// Pieces of a run between which the progress bar moves.
 const PIECES: u64 = 100;
@@ -84,14 +85,16 @@ impl Fields {
             .into());
         }
         let began = Instant::now();
-        let (fields, end, ratchet) = self.observe()?;
+        let ratchet = self.prepare()?;
+        self.check_files()?;
+        let (fields, end, ratchet) = self.observe(ratchet)?;
         let took = began.elapsed().as_secs_f64();
         self.write_fields(&fields, end)?;
         if let Some(path) = &self.profile {
             write_profile(path, &fields, end)?;
         }
-        println!(
-            "{} s of {} in {took:.2} s; transport velocity {} +- {} m/s\nfields in {}{}",
+        standard_output::write(&format!(
+            "{} s of {} in {took:.2} s; transport velocity {} +- {} m/s\nfields in {}{}\n",
             text::number(end),
             names.scene,
             text::number(ratchet.real("transport_velocity")?),
@@ -100,16 +103,36 @@ impl Fields {
             self.profile
                 .as_ref()
                 .map_or_else(String::new, |path| format!(", profile in {}", path.display())),
-        );
-        Ok(())
+        ))
     }
 
-    /// Runs the scene and returns the fields, the time of their end \[s\], and the simulation then.
-    fn observe(&self) -> Result<(FlowFields, f64, Simulation<RatchetOnSine>), Failure> {
+    /// The ratchet at the start.
+    fn prepare(&self) -> Result<Simulation<RatchetOnSine>, Failure> {
         let Selected { structure, .. } = self.selection.of(ModelType::of::<RatchetOnSine>())?;
         let mut ratchet = Simulation::<RatchetOnSine>::prepare(structure);
         assignments::assign(&mut ratchet, &self.assignments)?;
         ratchet.start(0.0)?;
+        Ok(ratchet)
+    }
+
+    /// Refuses files that cannot be written before anything is computed for them.
+    fn check_files(&self) -> Result<(), Failure> {
+        csv_file::check(&self.output)?;
+        let Some(profile) = &self.profile else {
+            return Ok(());
+        };
+        if *profile == self.output {
+            let allowed = "another file than --output, which holds the fields";
+            return Err(Error::parameter("--profile", profile.display(), allowed, "Name two files.").into());
+        }
+        csv_file::check(profile)
+    }
+
+    /// Runs the scene and returns the fields, the time of their end \[s\], and the simulation then.
+    fn observe(
+        &self,
+        mut ratchet: Simulation<RatchetOnSine>,
+    ) -> Result<(FlowFields, f64, Simulation<RatchetOnSine>), Failure> {
         if self.warm_up > 0.0 {
             ratchet.advance_to(self.warm_up)?;
         }
@@ -153,12 +176,10 @@ fn write_profile(path: &Path, fields: &FlowFields, end: f64) -> Result<(), Failu
 }
 
 fn write(path: &Path, header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> Result<(), Failure> {
-    let mut writer = csv::Writer::from_path(path).map_err(|error| Failure::file(path, error))?;
-    writer
-        .write_record(header)
-        .map_err(|error| Failure::file(path, error))?;
+    let mut file = CsvFile::create(path)?;
+    file.write(header)?;
     for row in rows {
-        writer.write_record(&row).map_err(|error| Failure::file(path, error))?;
+        file.write(&row)?;
     }
-    writer.flush().map_err(|error| Failure::file(path, error))
+    file.flush()
 }

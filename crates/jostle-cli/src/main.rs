@@ -5,6 +5,7 @@
 mod assignments;
 #[cfg(test)]
 mod clock;
+mod csv_file;
 mod describe;
 mod failure;
 mod fields;
@@ -14,6 +15,7 @@ mod progress;
 mod replay;
 mod run;
 mod selection;
+mod standard_output;
 mod text;
 mod theory;
 

@@ -7,6 +7,7 @@ use fmi_bundle::{TOLERANCE, replay};
 use jostle::Error;
 
 use crate::failure::Failure;
+use crate::standard_output;
 
 /// Check that an FMU computes here what it computed where it was made.
 ///
@@ -31,21 +32,21 @@ impl Replay {
     /// The file is no FMU of jostle's, its library does not run here, or the outputs differ.
     pub fn execute(self) -> Result<(), Failure> {
         let report = replay(&self.fmu)?;
-        println!(
-            "{}: {} values at {} times, {} differ in some bit",
+        standard_output::write(&format!(
+            "{}: {} values at {} times, {} differ in some bit\n",
             self.fmu.display(),
             report.values,
             report.rows,
             report.differing
-        );
+        ))?;
         let Some((name, time)) = &report.place else {
             return Ok(());
         };
         let largest = report.largest;
         let what = format!("{name} differs by {largest:e} of its size at t = {time} s");
         if report.passes() && !self.exact {
-            println!("{what}, within the {TOLERANCE:e} that another rounding of sines and exponentials may make");
-            return Ok(());
+            let within = "that another rounding of sines and exponentials may make";
+            return standard_output::write(&format!("{what}, within the {TOLERANCE:e} {within}\n"));
         }
         let allowed = if self.exact { 0.0 } else { TOLERANCE };
         let remedy = "Is it the FMU as it was made, on a processor that rounds as IEEE 754 says?";

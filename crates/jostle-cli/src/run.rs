@@ -3,7 +3,6 @@
 //! Two files: the samples (time and every output) and beside them, in `NAME.parameters.csv`, all that made them: scene,
 //! engine, drive, version and every parameter with its unit. So the samples stay plain CSV that any reader takes.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -12,9 +11,10 @@ use jostle::Error;
 use jostle::scene::catalogue::sine_if_known;
 use jostle::scene::{Causality, DynSimulation, Kind};
 
+use crate::csv_file::CsvFile;
 use crate::failure::Failure;
 use crate::selection::{Selected, Selection};
-use crate::{assignments, progress, text};
+use crate::{assignments, progress, standard_output, text};
 
 /// Most rows of one file; more is a slip of the keyboard.
 const MOST_ROWS: f64 = 1e8;
@@ -63,15 +63,14 @@ impl Run {
         let began = Instant::now();
         let rows = run(&self, &selected)?;
         let took = began.elapsed().as_secs_f64();
-        println!(
-            "{} s of {} in {took:.2} s, {:.3} simulated seconds per second\n{rows} rows in {}, parameters in {}",
+        standard_output::write(&format!(
+            "{} s of {} in {took:.2} s, {:.3} simulated seconds per second\n{rows} rows in {}, parameters in {}\n",
             text::number(self.seconds),
             selected.names.scene,
             self.seconds / took,
             self.output.display(),
             self.parameter_file().display(),
-        );
-        Ok(())
+        ))
     }
 
     /// Time of row `index` \[s\]: from the start, never a running sum.
@@ -94,8 +93,12 @@ impl Run {
         ))
     }
 
+    /// `run.parameters.csv` for `run.csv`. Other endings stay, so that `gamma0.1` and `gamma0.2` have a file each.
     fn parameter_file(&self) -> PathBuf {
-        self.output.with_extension("parameters.csv")
+        match self.output.extension() {
+            Some(ending) if ending == "csv" => self.output.with_extension("parameters.csv"),
+            _ => self.output.with_added_extension("parameters.csv"),
+        }
     }
 }
 
@@ -105,9 +108,9 @@ fn run(options: &Run, selected: &Selected) -> Result<u64, Failure> {
     let mut simulation = (selected.model.prepare)(selected.structure.clone());
     assignments::assign(&mut *simulation, &options.assignments)?;
     simulation.start(0.0)?;
-    write_parameters(options, selected, &*simulation)?;
-
+    // First what may be refused: parameters must not stand beside the samples of another run.
     let mut samples = Samples::create(&options.output, &*simulation)?;
+    write_parameters(options, selected, &*simulation)?;
     samples.write(0.0, &*simulation)?;
     let bar = progress::bar(last);
     for row in 1..=last {
@@ -127,8 +130,7 @@ fn run(options: &Run, selected: &Selected) -> Result<u64, Failure> {
 
 /// The CSV file of samples.
 struct Samples<'options> {
-    path: &'options Path,
-    writer: csv::Writer<File>,
+    file: CsvFile<'options>,
     /// Positions of the outputs in the table.
     outputs: Vec<usize>,
 }
@@ -138,13 +140,10 @@ impl<'options> Samples<'options> {
         let variables = simulation.values().table().variables();
         let is_output = |position: &usize| variables[*position].causality == Causality::Output;
         let outputs: Vec<usize> = (0..variables.len()).filter(is_output).collect();
-        let mut writer = csv::Writer::from_path(path).map_err(|error| Failure::file(path, error))?;
+        let mut file = CsvFile::create(path)?;
         let names = outputs.iter().map(|&position| variables[position].name.as_str());
-        let header = std::iter::once("time").chain(names);
-        writer
-            .write_record(header)
-            .map_err(|error| Failure::file(path, error))?;
-        Ok(Self { path, writer, outputs })
+        file.write(std::iter::once("time").chain(names))?;
+        Ok(Self { file, outputs })
     }
 
     /// Writes one row and hands it to the operating system at once, so that nothing is lost by what comes next.
@@ -153,10 +152,8 @@ impl<'options> Samples<'options> {
         for &position in &self.outputs {
             record.push(simulation.value(position)?.to_string());
         }
-        self.writer
-            .write_record(record)
-            .map_err(|error| Failure::file(self.path, error))?;
-        self.writer.flush().map_err(|error| Failure::file(self.path, error))
+        self.file.write(record)?;
+        self.file.flush()
     }
 }
 
@@ -191,13 +188,11 @@ fn write_parameters(options: &Run, selected: &Selected, simulation: &dyn DynSimu
             ]);
         }
     }
-    let mut writer = csv::Writer::from_path(&path).map_err(|error| Failure::file(&path, error))?;
+    let mut file = CsvFile::create(&path)?;
     for record in &records {
-        writer
-            .write_record(record)
-            .map_err(|error| Failure::file(&path, error))?;
+        file.write(record)?;
     }
-    writer.flush().map_err(|error| Failure::file(&path, error))
+    file.flush()
 }
 
 #[cfg(test)]

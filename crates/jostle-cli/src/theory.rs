@@ -1,7 +1,5 @@
 //! `jostle theory`: curves of the theory as CSV, to be drawn elsewhere.
 
-use std::io::{self, Write};
-
 use clap::{Args, ValueEnum};
 use jostle::Error;
 use jostle::measure::disk_on_two_supports::{
@@ -10,7 +8,7 @@ use jostle::measure::disk_on_two_supports::{
 };
 
 use crate::failure::Failure;
-use crate::text;
+use crate::{standard_output, text};
 
 /// Computes what the theory says of a scene and prints it as CSV: what varies, then the quantity, in SI units.
 ///
@@ -78,11 +76,7 @@ impl Theory {
         }
         let swept = swept(&self.assignments)?;
         let page = page(self.quantity, &swept)?;
-        match io::stdout().write_all(page.as_bytes()) {
-            // The reader, such as head, has read enough.
-            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-            written => written.map_err(|error| Failure::file("standard output".as_ref(), error)),
-        }
+        standard_output::write(&page)
     }
 }
 

@@ -187,3 +187,77 @@ fn theory_prints_csv_and_refuses_what_it_has_not() {
         assert!(output.stdout.is_empty());
     }
 }
+
+const SHORT: [&str; 8] = [
+    "run",
+    "packing",
+    "--disks",
+    "3",
+    "--seconds",
+    "0.001",
+    "--sample",
+    "0.001",
+];
+
+fn short_run(output: &std::path::Path, friction: &str) -> Output {
+    let friction = format!("contact.friction={friction}");
+    let own = ["--output", output.to_str().unwrap(), "--set", &friction];
+    jostle(&[&SHORT[..], &own].concat())
+}
+
+#[test]
+fn outputs_whose_names_differ_after_a_dot_have_parameters_of_their_own() {
+    let folder = folder("dots");
+    for friction in ["0.1", "0.2"] {
+        let output = short_run(&folder.join(format!("friction{friction}")), friction);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+    }
+    for friction in ["0.1", "0.2"] {
+        let path = folder.join(format!("friction{friction}.parameters.csv"));
+        let parameters = std::fs::read_to_string(path).unwrap();
+        assert!(parameters.contains(&format!("contact.friction,{friction},1\n")));
+    }
+}
+
+#[test]
+fn a_run_that_cannot_write_its_samples_leaves_no_parameters() {
+    let folder = folder("taken");
+    let taken = folder.join("run.csv");
+    std::fs::create_dir_all(&taken).unwrap();
+    assert_eq!(short_run(&taken, "0.1").status.code(), Some(1));
+    assert!(!folder.join("run.parameters.csv").exists());
+}
+
+#[test]
+fn fields_refuses_its_files_before_it_computes() {
+    let folder = folder("fields");
+    let file = folder.join("fields.csv");
+    let (path, nowhere) = (file.to_str().unwrap(), "no/such/folder/profile.csv");
+    // So long a run would not end within the time of a test.
+    let long = ["fields", "ratchet", "--seconds", "1e6", "--output", path, "--profile"];
+    for (profile, code, message) in [(path, 2, "Name two files"), (nowhere, 1, "cannot be written")] {
+        let output = jostle(&[&long[..], &[profile]].concat());
+        assert_eq!(output.status.code(), Some(code), "{}", text(&output.stderr));
+        assert!(text(&output.stderr).contains(message), "{}", text(&output.stderr));
+    }
+}
+
+/// A closed pipe means that the reader has read enough; a full device is a failure.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_standard_output_that_takes_nothing_more_is_told_apart() {
+    use std::process::Stdio;
+    let run = |output: Stdio| {
+        Command::new(env!("CARGO_BIN_EXE_jostle"))
+            .args(["theory", "three_disk", "limits", "--set", "tilt=0"])
+            .stdout(output)
+            .stderr(Stdio::null())
+            .status()
+            .unwrap()
+    };
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    assert_eq!(run(writer.into()).code(), Some(0));
+    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+    assert_eq!(run(full.into()).code(), Some(1));
+}

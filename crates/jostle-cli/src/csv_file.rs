@@ -1,0 +1,50 @@
+//! Rows of text as a CSV file.
+
+use std::fs::File;
+use std::path::Path;
+
+use crate::failure::Failure;
+
+/// A CSV file that is written row by row; a file that was there is replaced.
+pub struct CsvFile<'path> {
+    path: &'path Path,
+    writer: csv::Writer<File>,
+}
+
+impl<'path> CsvFile<'path> {
+    /// An empty file.
+    ///
+    /// # Errors
+    /// It cannot be made.
+    pub fn create(path: &'path Path) -> Result<Self, Failure> {
+        let writer = csv::Writer::from_path(path).map_err(|error| Failure::file(path, error))?;
+        Ok(Self { path, writer })
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn write<T: AsRef<[u8]>>(&mut self, row: impl IntoIterator<Item = T>) -> Result<(), Failure> {
+        self.writer
+            .write_record(row)
+            .map_err(|error| Failure::file(self.path, error))
+    }
+
+    /// Hands all rows to the operating system, so that nothing is lost by what comes next.
+    ///
+    /// # Errors
+    /// They cannot be written.
+    pub fn flush(&mut self) -> Result<(), Failure> {
+        self.writer.flush().map_err(|error| Failure::file(self.path, error))
+    }
+}
+
+/// Refuses a file that cannot be written; one that is there keeps what it holds.
+///
+/// # Errors
+/// It cannot be written.
+pub fn check(path: &Path) -> Result<(), Failure> {
+    let opened = File::options().append(true).create(true).open(path);
+    opened.map(drop).map_err(|error| Failure::file(path, error))
+}

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use jostle::drive::{Drive, FirstHit, FollowsInput, Sine};
+use jostle::drive::{Degree, Drive, FirstHit, FollowsInput, Motion, Sine};
 use jostle::geometry::Flight;
 
 /// Even numbers in [0, 1), the same on every run.
@@ -167,18 +167,18 @@ fn flights_over_a_sine_scanned_densely() {
     scan_sines(4_000_000, 2_000, 2);
 }
 
-/// A base cubic and a flight over it, hit or not before the cubic ends.
-fn cubic_case(random: &mut Uniform) -> (Case<FollowsInput>, f64) {
+/// A base on a quintic and a flight over it, hit or not before the quintic ends.
+fn quintic_case(random: &mut Uniform) -> (Case<FollowsInput>, f64) {
     let step = random.logarithmic(1e-4, 1e-1);
     let start = random.between(0.0, 10.0);
     let speed = random.logarithmic(1e-3, 1.0);
-    let mut base = FollowsInput::uniform(start, random.between(-1e-3, 1e-3), random.between(-1.0, 1.0) * speed);
-    base.set_target(
-        start,
-        step,
-        random.between(-1.0, 1.0) * speed * step,
-        random.between(-1.0, 1.0) * speed,
-    );
+    let mut motion = |displacement: f64| Motion {
+        displacement: random.between(-1.0, 1.0) * displacement,
+        velocity: random.between(-1.0, 1.0) * speed,
+        acceleration: random.between(-1.0, 1.0) * speed / step,
+    };
+    let mut base = FollowsInput::starting(start, motion(1e-3), Degree::Automatic);
+    base.set_target(start, step, motion(speed * step));
     let normal_up = if random.next() < 0.5 {
         1.0
     } else {
@@ -214,11 +214,11 @@ fn cubic_case(random: &mut Uniform) -> (Case<FollowsInput>, f64) {
     (case, step - since)
 }
 
-fn scan_cubics(flights: u32, scans: u32) {
+fn scan_quintics(flights: u32, scans: u32) {
     let mut random = Uniform(3);
     let (mut hits, mut never) = (0, 0);
     for _ in 0..flights {
-        let (case, left) = cubic_case(&mut random);
+        let (case, left) = quintic_case(&mut random);
         if case.flight.gap < 0.0 {
             continue;
         }
@@ -230,19 +230,19 @@ fn scan_cubics(flights: u32, scans: u32) {
         assert!(hit <= left * (1.0 + 1e-12) || hit == f64::INFINITY);
         if hit < f64::INFINITY { hits += 1 } else { never += 1 }
     }
-    println!("{hits} hits, {never} not on this cubic");
+    println!("{hits} hits, {never} not on this quintic");
     assert!(hits > flights / 4 && never > flights / 20);
 }
 
 #[test]
-fn million_flights_over_a_cubic() {
-    scan_cubics(1_000_000, 40);
+fn million_flights_over_a_quintic() {
+    scan_quintics(1_000_000, 40);
 }
 
 #[test]
 #[ignore = "minutes: the same, scanned densely"]
-fn flights_over_a_cubic_scanned_densely() {
-    scan_cubics(1_000_000, 2_000);
+fn flights_over_a_quintic_scanned_densely() {
+    scan_quintics(1_000_000, 2_000);
 }
 
 /// The last bounces of a disk that comes to rest: each flight a millionth of the one before, down to 1e-15 of a period.
@@ -274,7 +274,12 @@ fn chatter_keeps_its_digits() {
 fn delays_of_extreme_flights_are_never_negative_or_nan() {
     let sizes = [0.0, 1e-30, 1e-17, 1e-3, 1.0, 1e6].map(|size| [size, -size]).concat();
     let mut input = FollowsInput::uniform(0.0, 0.0, 0.0);
-    input.set_target(0.0, 1e-3, 1e-5, 0.02);
+    let motion = Motion {
+        displacement: 1e-5,
+        velocity: 0.02,
+        acceleration: -3.0,
+    };
+    input.set_target(0.0, 1e-3, motion);
     for amplitude in [1e-30, 1e-9, 1e-3, 1.0] {
         let sine = Sine {
             amplitude,

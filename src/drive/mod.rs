@@ -4,8 +4,10 @@
 
 mod base_motion;
 pub mod excitation;
+mod extrapolation;
 mod first_hit;
 mod follows_input;
+mod quintic;
 mod random_phase;
 mod sine;
 
@@ -13,6 +15,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 pub use base_motion::{AtRandomPhase, BaseMotion};
+pub use extrapolation::{Contradiction, Degree, Extrapolation, InputHistory, InputSample};
 pub use first_hit::FirstHit;
 pub use follows_input::FollowsInput;
 pub use random_phase::{RandomPhase, leaves_wall};

@@ -3,7 +3,7 @@
 
 use crate::drive::Drive;
 
-use super::{Result, Row, Values};
+use super::{Result, Row, Values, Warning};
 
 /// Terminal of what is coupled at the base. It exists where inputs move the base.
 pub const TERMINAL: &str = "base";
@@ -17,6 +17,8 @@ pub trait BaseDrive: Drive {
 
     /// What the displacement at the start depends on, as in [`Row::depending_on`](crate::scene::Row::depending_on).
     const DISPLACEMENT_AT_START: &'static [&'static str];
+    /// What the velocity at the start depends on.
+    const VELOCITY_AT_START: &'static [&'static str];
     /// What the acceleration at the start depends on.
     const ACCELERATION_AT_START: &'static [&'static str];
     /// What [`BaseDrive::frequency`] depends on.
@@ -36,4 +38,9 @@ pub trait BaseDrive: Drive {
 
     /// Frequency \[Hz\] if it is known before the run.
     fn frequency(&self) -> Option<f64>;
+
+    /// What is doubtful of the inputs so far.
+    fn warning(&self) -> Option<Warning> {
+        None
+    }
 }

@@ -52,6 +52,10 @@ pub trait DisksOnBase: Sized {
     /// Motion of the base at `time` \[s\], to which the engine was advanced last.
     fn base_at(&self, time: f64) -> Motion;
 
+    /// Vertical impulse of the disks on the base since the start \[N.s\], up, until the time to which the engine was advanced
+    /// last.
+    fn base_impulse(&self) -> f64;
+
     /// Motion of a disk now.
     ///
     /// Always inlined: an output then computes only what it shows of a motion.
@@ -122,12 +126,36 @@ pub fn reaction_force<M: DisksOnBase>(nominal: f64, bodies: &str) -> Row<M> {
     .in_terminal(TERMINAL, "reaction_force")
 }
 
+/// Row `base.impulse`; `bodies` as in "disks on the base".
+pub fn base_impulse<M: DisksOnBase>(nominal: f64, bodies: &str) -> Row<M> {
+    let description = format!(
+        "Vertical impulse of the {bodies} since the start, up; its change over any time is the mean force then times that time"
+    );
+    Row::output(
+        "base.impulse",
+        Unit::NEWTON_SECOND,
+        nominal,
+        description,
+        |scene: &M| scene.base_impulse(),
+    )
+    .in_terminal(TERMINAL, "impulse")
+}
+
 /// Row `base.position`: displacement of the base.
 pub fn base_position<M: DisksOnBase>(nominal: f64, description: &str) -> Row<M> {
     Row::output("base.position", Unit::METRE, nominal, description, |scene: &M| {
         scene.base().displacement
     })
     .in_terminal(TERMINAL, "position")
+}
+
+/// Row `base.velocity_output`, named so because the input `base.velocity` may stand beside it.
+pub fn base_velocity<M: DisksOnBase>(nominal: f64, description: &str) -> Row<M> {
+    let unit = Unit::METRE_PER_SECOND;
+    Row::output("base.velocity_output", unit, nominal, description, |scene: &M| {
+        scene.base().velocity
+    })
+    .in_terminal(TERMINAL, "velocity_output")
 }
 
 /// Row `base.acceleration`.
@@ -139,28 +167,35 @@ pub fn base_acceleration<M: DisksOnBase>(nominal: f64, description: &str) -> Row
     .in_terminal(TERMINAL, "acceleration")
 }
 
-/// Rows of the base among the outputs: reaction force, position, acceleration.
+/// Rows of the base among the outputs: reaction force, impulse, position, velocity, acceleration.
 pub struct BaseRows<'a> {
     /// Typical reaction force \[N\].
     pub force: f64,
     /// What pushes on what, as in "disks on the base".
     pub bodies: &'a str,
-    /// What follows the descriptions of position and acceleration.
+    /// What follows the descriptions of position, velocity and acceleration.
     pub note: &'a str,
     /// What the position at the start depends on.
     pub position_at_start: &'a Arc<[&'static str]>,
+    /// What the velocity at the start depends on.
+    pub velocity_at_start: &'a Arc<[&'static str]>,
     /// What the acceleration at the start depends on.
     pub acceleration_at_start: &'a Arc<[&'static str]>,
 }
 
 impl BaseRows<'_> {
     /// The rows.
-    pub fn rows<M: DisksOnBase>(&self) -> [Row<M>; 3] {
+    pub fn rows<M: DisksOnBase>(&self) -> [Row<M>; 5] {
         let note = self.note;
         [
             reaction_force(self.force, self.bodies),
+            base_impulse(self.force, self.bodies),
             base_position(1e-3, &format!("Displacement of the base now, up{note}"))
+                .with_derivative("base.velocity_output")
                 .depending_on(self.position_at_start),
+            base_velocity(0.1, &format!("Velocity of the base now, up{note}"))
+                .with_derivative("base.acceleration")
+                .depending_on(self.velocity_at_start),
             base_acceleration(10.0, &format!("Acceleration of the base now, up{note}"))
                 .depending_on(self.acceleration_at_start),
         ]

@@ -9,7 +9,7 @@ use crate::error::are_sane;
 
 use super::base_drive::BaseDrive;
 use super::disks_on_base::DisksOnBase;
-use super::{Error, Result, Row, Unit, Values};
+use super::{Error, Result, Row, Unit, Values, Warning};
 
 /// A base that a scene of hard disks can stand on.
 pub trait HardBase: VibratingBase {
@@ -24,6 +24,11 @@ pub trait HardBase: VibratingBase {
 
     /// Takes new inputs at `time` \[s\] for a step of `duration` \[s\]; false if nothing has changed.
     fn set_target(&mut self, time: f64, duration: f64, values: &Values) -> bool;
+
+    /// What is doubtful of the inputs so far.
+    fn warning(&self) -> Option<Warning> {
+        None
+    }
 }
 
 impl HardBase for Moving<Sine> {
@@ -53,8 +58,12 @@ impl HardBase for Moving<FollowsInput> {
 
     fn set_target(&mut self, time: f64, duration: f64, values: &Values) -> bool {
         BaseDrive::set_target(&mut self.drive, time, duration, values);
-        self.farthest = self.drive.highest();
+        self.farthest = self.drive.path().highest();
         true
+    }
+
+    fn warning(&self) -> Option<Warning> {
+        self.drive.warning()
     }
 }
 
@@ -171,6 +180,8 @@ pub struct EnergyRows<'a> {
     pub lost: &'a str,
     /// Description of what the balance misses.
     pub residual: &'a str,
+    /// What the kinetic energy at the start depends on.
+    pub kinetic_at_start: &'a Arc<[&'static str]>,
     /// What the potential energy at the start depends on.
     pub potential_at_start: &'a Arc<[&'static str]>,
 }
@@ -186,7 +197,8 @@ impl EnergyRows<'_> {
                 "energy.kinetic",
                 "Kinetic energy of translation and rotation",
                 |scene| scene.energies().kinetic,
-            ),
+            )
+            .depending_on(self.kinetic_at_start),
             energy("energy.potential", self.potential, |scene| scene.energies().potential)
                 .depending_on(self.potential_at_start),
             energy(

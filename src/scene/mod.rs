@@ -12,6 +12,7 @@ pub mod disks_on_base;
 pub mod drives {
     //! The drives of a base, one a file: their parameters and inputs as rows.
 
+    mod extrapolated;
     mod follows_input;
     pub mod sine;
 }
@@ -32,7 +33,7 @@ pub mod wedge;
 pub use any_simulation::{AnySimulation, Selection};
 pub use fmi_component::{
     Causality, DynSimulation, Error, Kind, Model, ModelInfo, ModelType, Quantity, Reached, Read, Result, Row, Saved,
-    Simulation, StructuralParameters, TIME, Table, Unit, Value, Values, Variable,
+    Simulation, StructuralParameters, TIME, Table, Unit, Value, Values, Variable, Warning,
 };
 pub use info::SceneInfo;
 #[cfg(feature = "toml")]

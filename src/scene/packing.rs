@@ -10,6 +10,7 @@ pub mod hard;
 mod hard_law;
 mod initial_packing;
 mod rows;
+mod settled;
 pub mod soft;
 mod soft_packing;
 

@@ -22,7 +22,7 @@ use crate::measure::Transport;
 use super::base_drive::BaseDrive;
 use super::disks_on_base::{DisksOnBase, StepReport, complete};
 use super::hard_disks::{HardBase, HardDisksOnBase};
-use super::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Values, info};
+use super::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Values, Warning, info};
 pub use fields::Resolution;
 use refusals::{impossible_motion, refusal};
 
@@ -234,6 +234,10 @@ where
         self.advance_observed(end_time, values, &mut Unobserved)
     }
 
+    fn warnings(&self) -> Vec<Warning> {
+        self.engine.state().boundary.base().warning().into_iter().collect()
+    }
+
     fn limit_work(&mut self, most: u64) {
         self.most_work = most;
     }
@@ -285,6 +289,10 @@ where
 
     fn base_at(&self, time: f64) -> Motion {
         self.engine.state().boundary.base().motion(time)
+    }
+
+    fn base_impulse(&self) -> f64 {
+        -self.engine.state().counts.base_impulse
     }
 }
 

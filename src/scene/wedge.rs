@@ -20,7 +20,7 @@ use super::disks_on_base::{
     BaseRows, DisksOnBase, StepReport, complete, heights, horizontal_positions, mean_angular_velocity, mean_velocity,
     names, rotations,
 };
-use super::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values};
+use super::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning};
 use engine::AtStart;
 pub use engine::{SpecificEnergies, WedgeEngine};
 pub use rigid::{EventDriven, Map};
@@ -102,6 +102,10 @@ impl<E: WedgeEngine> DisksOnBase for Wedge<E> {
     fn base_at(&self, time: f64) -> Motion {
         self.engine.base_at(time)
     }
+
+    fn base_impulse(&self) -> f64 {
+        -self.mass * self.engine.impulse()
+    }
 }
 
 impl<E: WedgeEngine> Wedge<E> {
@@ -165,12 +169,13 @@ impl<E: WedgeEngine> Wedge<E> {
         ]
     }
 
-    fn base_rows() -> [Row<Self>; 3] {
+    fn base_rows() -> [Row<Self>; 5] {
         let base = BaseRows {
             force: 0.1,
             bodies: "disk on the base",
             note: "; the map holds it at 0",
             position_at_start: &E::AT_START.displacement.into(),
+            velocity_at_start: &E::AT_START.velocity.into(),
             acceleration_at_start: &E::AT_START.acceleration.into(),
         };
         base.rows()
@@ -281,6 +286,10 @@ impl<E: WedgeEngine> Model for Wedge<E> {
             reaction_force: (impulse - self.engine.impulse() * self.mass) / (end_time - from),
         };
         Ok(())
+    }
+
+    fn warnings(&self) -> Vec<Warning> {
+        self.engine.warning().into_iter().collect()
     }
 
     fn limit_work(&mut self, most: u64) {

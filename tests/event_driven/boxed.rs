@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use jostle::collision::{CollisionLaw, ContactTime, Coulomb, Smooth};
-use jostle::drive::{AtRandomPhase, FollowsInput, RandomPhase, Sine};
+use jostle::drive::{AtRandomPhase, FollowsInput, Motion, RandomPhase, Sine};
 use jostle::engine::event_driven::{
     EventDriven, EventDrivenStop, Model, Moving, Open, Partner, Region, Settings, VibratingBase, Walls,
 };
@@ -145,7 +145,7 @@ fn bouncing_disk_follows_the_closed_form() {
         farthest: 0.0,
     };
     // The motion of an input is known until its cubic ends.
-    base.drive.set_target(0.0, 10.0, 0.0, 0.0);
+    base.drive.set_target(0.0, 10.0, Motion::default());
     let mut engine = boxed(Smooth::new(0.8).unwrap(), base, &disk, &[[0.0; 3]]);
     let fall = (2.0 * 0.1 / 9.8_f64).sqrt();
     let mut landing = fall;

@@ -6,7 +6,7 @@ use std::any::Any;
 
 use crate::error::{Error, Result};
 use crate::info::ModelInfo;
-use crate::model::{Model, Reached};
+use crate::model::{Model, Reached, Warning};
 use crate::saved_bytes;
 use crate::simulation::{Saved, Simulation};
 use crate::structure::StructuralParameters;
@@ -88,6 +88,7 @@ pub trait DynSimulation: Send {
     fn advance_to_event(&mut self, end_time: f64) -> Result<Reached>;
     fn resume_to_event(&mut self, end_time: f64) -> Result<Reached>;
     fn limit_work(&mut self, most: u64);
+    fn warnings(&self) -> Vec<Warning>;
     fn save(&self) -> DynSaved;
     fn restore(&mut self, saved: &DynSaved) -> Result<()>;
     fn restore_anew(&mut self, saved: &DynSaved) -> Result<()>;
@@ -175,6 +176,10 @@ impl<M: Model> DynSimulation for Simulation<M> {
 
     fn limit_work(&mut self, most: u64) {
         self.limit_work(most);
+    }
+
+    fn warnings(&self) -> Vec<Warning> {
+        self.warnings()
     }
 
     fn save(&self) -> DynSaved {

@@ -13,6 +13,7 @@ use std::sync::Arc;
 use crate::dynamic::{DynSimulation, ModelType};
 use crate::error::{Error, Result};
 use crate::life_cycle::{Call, Phase};
+use crate::model::Warning;
 use crate::standard::TOLERANCE;
 use crate::table::Table;
 use crate::times::check_time;
@@ -103,6 +104,11 @@ impl Instance {
     /// Token that it was made with.
     pub fn token(&self) -> &str {
         &self.token
+    }
+
+    /// What is doubtful about the run so far.
+    pub fn warnings(&self) -> Vec<Warning> {
+        self.simulation.warnings()
     }
 
     /// Whether the model has events.

@@ -49,7 +49,7 @@ pub use error::{Error, Result};
 pub use info::{ModelInfo, StructuralParameter};
 pub use instance::{Importer, Instance};
 pub use life_cycle::{Phase, Version};
-pub use model::{Model, Reached};
+pub use model::{Model, Reached, Warning};
 pub use row::{Read, Row};
 pub use simulation::{Saved, Simulation};
 pub use standard::{LOG_CATEGORIES, TIME_REFERENCE, TOLERANCE, value_reference};

@@ -18,6 +18,15 @@ pub struct Reached {
     pub event: bool,
 }
 
+/// What is doubtful about a run, though nothing is refused.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// What it is about: of one topic only the first warning is told.
+    pub topic: &'static str,
+    /// What is doubtful, its values, and the remedy.
+    pub text: String,
+}
+
 /// A model that can be stepped, observed, saved and restored.
 ///
 /// Contract: the parameters are frozen in [`Model::new`]. [`Model::advance_to`] either reaches `end_time` or leaves the state
@@ -73,6 +82,11 @@ pub trait Model: Sized + Send + 'static {
     /// Limits the work of one call of [`Model::advance_to`]. It holds for this value of the model and is no part of its state. A
     /// model whose calls take the same time whatever is asked of them has nothing to limit.
     fn limit_work(&mut self, _most: u64) {}
+
+    /// What is doubtful about the parameters, or the inputs so far. Asked for after the start and after each step.
+    fn warnings(&self) -> Vec<Warning> {
+        Vec::new()
+    }
 
     /// A copy of the present state.
     fn state(&self) -> Self::State;

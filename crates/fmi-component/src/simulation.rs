@@ -9,7 +9,7 @@ mod saving;
 use std::sync::Arc;
 
 use crate::error::{Error, Result};
-use crate::model::{Model, Reached};
+use crate::model::{Model, Reached, Warning};
 use crate::row::{Read, Row};
 use crate::structure::StructuralParameters;
 use crate::table::Table;
@@ -318,6 +318,11 @@ impl<M: Model> Simulation<M> {
             Some(variable) => not_started(&format!("read {}", variable.name)),
             None => self.table().no_variable(position),
         }
+    }
+
+    /// What is doubtful about the run so far; nothing before the start.
+    pub fn warnings(&self) -> Vec<Warning> {
+        self.model.as_ref().map_or_else(Vec::new, M::warnings)
     }
 
     /// All values as of now, in the order of the variables.

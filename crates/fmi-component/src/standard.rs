@@ -12,7 +12,7 @@ pub const TIME_REFERENCE: u32 = 0;
 pub const TOLERANCE: &str = "tolerance";
 
 /// Categories of log messages, as declared in the model description: name and description.
-pub const LOG_CATEGORIES: [(&str, &str); 3] = [
+pub const LOG_CATEGORIES: [(&str, &str); 4] = [
     (
         "logStatusError",
         "Calls that were refused, with the reason and the remedy",
@@ -20,6 +20,10 @@ pub const LOG_CATEGORIES: [(&str, &str); 3] = [
     (
         "logStatusDiscard",
         "Steps that could not be done; the state is the one before the step",
+    ),
+    (
+        "logStatusWarning",
+        "What is doubtful about parameters or inputs, each once, though nothing is refused",
     ),
     ("logEvents", "Life cycle: instantiated, initialised, terminated, reset"),
 ];

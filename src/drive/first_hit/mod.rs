@@ -9,7 +9,7 @@
 //! Everything is relative to the wall as it stands and moves at the start, so that flights of a billionth of a period,
 //! between the last bounces of a disk that comes to rest, keep their digits.
 
-mod cubic;
+mod quintic;
 mod sine;
 
 use super::Drive;

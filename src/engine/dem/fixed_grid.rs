@@ -100,6 +100,12 @@ pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
     /// Positions (x, y, angle) and velocities of the disks.
     fn motion<'s>(&self, disks: &'s Self::Disks) -> (&'s [[f64; 3]], &'s [[f64; 3]]);
 
+    /// Gives all disks the velocity (x, y) \[m/s\] and no rotation.
+    fn set_velocity(&self, disks: &mut Self::Disks, velocity: [f64; 2]);
+
+    /// Vertical force \[N\] of the walls that follow the base on the disks, with the base at `base`.
+    fn base_force(&self, disks: &Self::Disks, base: Motion) -> f64;
+
     /// Impulse (x, y) \[N.s\] that the wall has given to the disks since the start.
     fn impulse_of_wall(&self, disks: &Self::Disks, wall: usize) -> [f64; 2];
 
@@ -158,6 +164,13 @@ impl<S: Stepper, D: Drive> FixedGrid<S, D> {
     /// Changes positions and velocities from outside (initial states of tests and studies) and starts afresh from there.
     pub fn set_motion(&mut self, change: impl FnOnce(&mut S::Disks)) {
         change(&mut self.state.disks);
+        self.stepper.start(&mut self.state);
+        self.between = None;
+    }
+
+    /// Gives all disks the velocity (x, y) \[m/s\] and no rotation, and starts afresh from there.
+    pub fn set_velocity(&mut self, velocity: [f64; 2]) {
+        self.stepper.set_velocity(&mut self.state.disks, velocity);
         self.stepper.start(&mut self.state);
         self.between = None;
     }

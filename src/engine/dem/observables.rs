@@ -69,6 +69,12 @@ impl<S: Stepper, D> FixedGrid<S, D> {
         self.stepper.impulse_of_wall(&self.now().disks, wall)
     }
 
+    /// Vertical force \[N\] of the walls that follow the base on the disks now.
+    pub fn base_force(&self) -> f64 {
+        let now = self.now();
+        self.stepper.base_force(&now.disks, now.base)
+    }
+
     /// Total momentum (x, y) \[kg.m/s\].
     pub fn momentum(&self) -> [f64; 2] {
         let velocities = self.observables().velocities.iter();

@@ -19,6 +19,7 @@ impl BaseDrive for Sine {
     const NAME: &'static str = "sine";
     const STEERED: bool = false;
     const DISPLACEMENT_AT_START: &'static [&'static str] = &[TIME, "drive.amplitude", "drive.frequency", "drive.phase"];
+    const VELOCITY_AT_START: &'static [&'static str] = Self::DISPLACEMENT_AT_START;
     const ACCELERATION_AT_START: &'static [&'static str] = Self::DISPLACEMENT_AT_START;
     const FREQUENCY: &'static [&'static str] = &["drive.frequency"];
 

@@ -9,7 +9,9 @@ use crate::error::are_sane;
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, radii};
 use crate::scene::hard_disks::{self, EnergyRows, HardDisksOnBase};
-use crate::scene::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, info};
+use crate::scene::{
+    Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning, info,
+};
 
 use super::PackingState;
 use super::either_base::EitherBase;
@@ -17,6 +19,7 @@ use super::equations;
 use super::hard::{HardDisks, HardEngine, START_GAP};
 use super::initial_packing::{self, NAME};
 use super::rows::{self, AtStart};
+use super::settled::{self, Settled};
 
 /// Event-driven packing whose base follows the inputs.
 pub type HardPackingOnInput = HardPacking<HardDisks<Moving<FollowsInput>>>;
@@ -36,6 +39,8 @@ pub struct HardPacking<E> {
     report: StepReport,
     /// Total energy at the start \[J\].
     start_energy: f64,
+    /// What is doubtful about the start.
+    warning: Option<Warning>,
 }
 
 impl<E: HardEngine> HardPacking<E> {
@@ -60,6 +65,10 @@ impl<E: HardEngine> DisksOnBase for HardPacking<E> {
 
     fn base_at(&self, time: f64) -> Motion {
         self.engine.base_at(time)
+    }
+
+    fn base_impulse(&self) -> f64 {
+        -self.counts().base_impulse
     }
 }
 
@@ -124,12 +133,13 @@ impl<E: HardEngine> Model for HardPacking<E> {
 
     fn variables(structure: &StructuralParameters) -> Vec<Row<Self>> {
         let disks = info::disks(structure);
-        let at_start = AtStart::of::<E::Drive>(&["base.model"]);
+        let at_start = AtStart::of::<E::Drive>(&["base.model"], &[]);
         let energies = EnergyRows {
             nominal: 1e-3,
             potential: "Energy in gravity, zero at the height of the base at rest",
             lost: "Energy lost in the dashpots and by slip since the start",
             residual: "Change of energy less work of the base plus losses: the integration's own error",
+            kinetic_at_start: &at_start.kinetic_energy,
             potential_at_start: &at_start.potential_energy,
         };
         let impacts = "Impacts so far, of disks and on walls";
@@ -140,6 +150,8 @@ impl<E: HardEngine> Model for HardPacking<E> {
         let mut rows = rows::parameters();
         rows.extend(E::parameters());
         rows.extend(E::Drive::rows());
+        // Hard disks on a base at rest collapse in no time.
+        rows.push(settled::parameter(false));
         rows.extend(radii(disks, 0.02, &at_start.radii, Self::radius));
         rows.extend(rows::means_and_base(&at_start));
         rows.extend(energies.rows());
@@ -150,6 +162,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
 
     fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
         let disks = initial_packing::disks(info::disks(structure), values, START_GAP)?;
+        let Settled { disks, warning } = settled::hard(disks, values)?;
         let masses = initial_packing::masses(&disks, values);
         let mut packing = Self {
             engine: E::from_values(&disks, &masses, start_time, values)?,
@@ -159,6 +172,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
             most_work: MOST_WORK_IN_A_CALL,
             report: StepReport::at_start(start_time),
             start_energy: 0.0,
+            warning,
         };
         packing.start_energy = packing.energies().total();
         Ok(packing)
@@ -182,6 +196,11 @@ impl<E: HardEngine> Model for HardPacking<E> {
             reaction_force: -given / (end_time - from),
         };
         Ok(())
+    }
+
+    fn warnings(&self) -> Vec<Warning> {
+        let inputs = self.engine.warning();
+        self.warning.iter().cloned().chain(inputs).collect()
     }
 
     fn limit_work(&mut self, most: u64) {

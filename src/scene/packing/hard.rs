@@ -11,10 +11,10 @@ use crate::engine::{DiskMotion, Engine};
 use crate::geometry::{Disk, Vector2};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::hard_disks::HardBase;
-use crate::scene::{Result, Row, Unit, Values};
+use crate::scene::{Result, Row, Unit, Values, Warning};
 
 use super::hard_law::{HardLaw, hard_law};
-use super::initial_packing;
+use super::{initial_packing, settled};
 
 /// Engine of the packing over a base W.
 pub type HardDisks<W> = EventDriven<HardLaw, Walls<W>, Open>;
@@ -39,6 +39,10 @@ pub trait HardEngine: Engine<Stop = EventDrivenStop> {
     fn from_values(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self>;
     /// Takes the inputs at `time` \[s\] for a step of `duration` \[s\].
     fn set_target(&mut self, time: f64, duration: f64, values: &Values);
+    /// What is doubtful of the inputs so far.
+    fn warning(&self) -> Option<Warning> {
+        None
+    }
     /// Motion of a disk at `time` \[s\].
     fn disk_at(&self, time: f64, disk: usize) -> DiskMotion;
     /// Sums since the start.
@@ -104,7 +108,17 @@ impl<W: HardBase> HardEngine for HardDisks<W> {
             gravity: values.real("gravity"),
             space,
         };
-        Ok(Self::new(model, &disks, masses, &vec![[0.0; 3]; disks.len()], settings))
+        let up = match settled::is_wanted(values) {
+            true => model.boundary.base.motion(start_time).velocity,
+            false => 0.0,
+        };
+        Ok(Self::new(
+            model,
+            &disks,
+            masses,
+            &vec![[0.0, up, 0.0]; disks.len()],
+            settings,
+        ))
     }
 
     fn set_target(&mut self, time: f64, duration: f64, values: &Values) {
@@ -112,6 +126,10 @@ impl<W: HardBase> HardEngine for HardDisks<W> {
         if base.set_target(time, duration, values) {
             self.change_boundary(time, &mut Unobserved, |boundary| boundary.base = base);
         }
+    }
+
+    fn warning(&self) -> Option<Warning> {
+        self.state().boundary.base.warning()
     }
 
     fn disk_at(&self, time: f64, disk: usize) -> DiskMotion {

@@ -8,34 +8,61 @@ use crate::scene::disks_on_base::{
 };
 use crate::scene::{Row, Unit};
 
+use super::settled::SETTLED;
+
 /// Names of the three radii that share the disks equally.
 pub const RADII: [&str; 3] = ["disk.radius_small", "disk.radius_medium", "disk.radius_large"];
 
 /// Radii in their order, and the box: the packing on a base at height zero.
 pub const PLACES: &[&str] = &["seed", "box.width", RADII[0], RADII[1], RADII[2]];
 
+/// What decides where a settled packing rests besides: weight and contacts.
+pub const SETTLING: &[&str] = &[
+    SETTLED,
+    "gravity",
+    "disk.surface_density",
+    "contact.normal_stiffness",
+    "contact.normal_damping",
+];
+
 /// What outputs depend on before the first step.
 pub struct AtStart {
     /// Radii of the disks.
     pub radii: Arc<[&'static str]>,
+    /// Horizontal positions of the disks.
+    pub places: Arc<[&'static str]>,
     /// Heights of the disks.
     pub heights: Arc<[&'static str]>,
+    /// Which contacts are closed.
+    pub touching: Arc<[&'static str]>,
+    /// Energy of the motion: a settled packing moves with the base.
+    pub kinetic_energy: Arc<[&'static str]>,
     /// Energy in gravity.
     pub potential_energy: Arc<[&'static str]>,
     /// Displacement of the base.
     pub base_position: Arc<[&'static str]>,
+    /// Velocity of the base.
+    pub base_velocity: Arc<[&'static str]>,
     /// Acceleration of the base.
     pub base_acceleration: Arc<[&'static str]>,
 }
 
 impl AtStart {
-    /// With the drive D; `base_model` names the parameter that may hold the base at rest, if there is one.
-    pub fn of<D: BaseDrive>(base_model: &[&'static str]) -> Self {
+    /// With the drive D; `base_model` names the parameter that may hold the base at rest, if there is one, and `contact` what the
+    /// normal force depends on besides stiffness and damping.
+    pub fn of<D: BaseDrive>(base_model: &[&'static str], contact: &[&'static str]) -> Self {
         let position = [D::DISPLACEMENT_AT_START, base_model].concat();
+        let places = names(&[PLACES, SETTLING, contact]);
+        let heights = names(&[&places, &position]);
+        let mass_and_motion = &[SETTLED, "seed", "disk.surface_density", RADII[0], RADII[1], RADII[2]];
         Self {
             radii: names(&[&RADII, &["seed"]]),
-            heights: names(&[PLACES, &position]),
-            potential_energy: names(&[PLACES, &position, &["gravity", "disk.surface_density"]]),
+            touching: Arc::clone(&heights),
+            kinetic_energy: names(&[mass_and_motion, D::VELOCITY_AT_START, base_model]),
+            potential_energy: Arc::clone(&heights),
+            heights,
+            places,
+            base_velocity: names(&[D::VELOCITY_AT_START, base_model]),
             base_acceleration: names(&[D::ACCELERATION_AT_START, base_model]),
             base_position: position.into(),
         }
@@ -49,6 +76,7 @@ pub fn means_and_base<M: DisksOnBase>(at_start: &AtStart) -> Vec<Row<M>> {
         bodies: "disks on the base",
         note: "",
         position_at_start: &at_start.base_position,
+        velocity_at_start: &at_start.base_velocity,
         acceleration_at_start: &at_start.base_acceleration,
     };
     let mut rows = vec![
@@ -65,9 +93,8 @@ pub fn each_disk<M: DisksOnBase>(disks: u32, at_start: &AtStart) -> Vec<Row<M>> 
     let rate = "Angular velocity, counter-clockwise, of disk {}";
     let across = "Distance of the centre to the right of the middle of the box of disk {}";
     let up = "Height of the centre above the base at rest of disk {}";
-    let places = PLACES.into();
     rotations(disks, angle, 1.0, rate)
-        .chain(horizontal_positions(disks, 0.1, across).map(|row| row.depending_on(&places)))
+        .chain(horizontal_positions(disks, 0.1, across).map(|row| row.depending_on(&at_start.places)))
         .chain(heights(disks, 0.1, up).map(|row| row.depending_on(&at_start.heights)))
         .collect()
 }

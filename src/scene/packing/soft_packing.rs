@@ -1,17 +1,22 @@
 //! The packing of soft disks: rows, steps and states for any engine of soft disks.
 
+use std::sync::Arc;
+
 use crate::drive::Motion;
 use crate::engine::dem::{FixedGrid, GridState, SoftDiskSetup, TimeStepLimits};
 use crate::engine::{DiskMotion, Engine, MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::are_sane;
 use crate::geometry::Disk;
-use crate::scene::base_drive::BaseDrive;
+use crate::scene::base_drive::{BaseDrive, TERMINAL};
 use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, names, radii};
 use crate::scene::soft_disks::{SceneNormalForce, chosen_time_step, contact_laws, refused_step};
-use crate::scene::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, info};
+use crate::scene::{
+    Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning, info,
+};
 
 use super::initial_packing::{self, NAME};
 use super::rows::{self, AtStart};
+use super::settled::{self, Settled};
 use super::{PackingState, equations, soft::SoftMethod};
 
 /// Index of the vibrating floor among the walls.
@@ -36,10 +41,12 @@ pub struct SoftPacking<S: SoftMethod, D> {
     report: StepReport,
     /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
     start_energy: f64,
+    /// What is doubtful about the start.
+    warning: Option<Warning>,
 }
 
 impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
-    /// A packing of given `disks` at rest, in a box of the width that `values` say.
+    /// A packing of given `disks` at rest relative to the base, in a box of the width that `values` say.
     ///
     /// # Errors
     /// A time step that the contacts do not allow, by name.
@@ -65,6 +72,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
             most_work: MOST_WORK_IN_A_CALL,
             report: StepReport::at_start(start_time),
             start_energy: 0.0,
+            warning: None,
         };
         packing.start_energy = packing.energy();
         Ok(packing)
@@ -73,6 +81,13 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
     /// The engine, to observe everything that is no output.
     pub fn engine(&self) -> &FixedGrid<S, D> {
         &self.engine
+    }
+
+    /// Gives all disks the velocity of the base.
+    fn move_with_base(&mut self) {
+        let velocity = self.engine.observables().base.velocity;
+        self.engine.set_velocity([0.0, velocity]);
+        self.start_energy = self.energy();
     }
 
     /// Kinetic, potential and elastic energy \[J\] together.
@@ -106,18 +121,39 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         ]
     }
 
+    /// The force that is no mean over a step: zero at the start unless disks overlap.
+    fn force_now(at_start: &AtStart) -> Row<Self> {
+        let description =
+            "Vertical force of the disks on the base now, up; base.reaction_force is its mean over the last step";
+        let force = Row::output(
+            "base.reaction_force_now",
+            Unit::NEWTON,
+            1.0,
+            description,
+            |packing: &Self| -packing.engine.base_force(),
+        );
+        force
+            .in_terminal(TERMINAL, "reaction_force_now")
+            .depending_on(&Self::pressed(at_start))
+    }
+
+    /// What overlaps and thus forces depend on at the start.
+    fn pressed(at_start: &AtStart) -> Arc<[&'static str]> {
+        names(&[&at_start.touching, D::VELOCITY_AT_START])
+    }
+
     /// Energies, and the closed contacts. Whether disks touch at the start, and how much energy that is, is a matter of
     /// rounding and thus of where the base is.
     fn energies_and_contacts(at_start: &AtStart) -> [Row<Self>; 7] {
         let energy = |name, description, read| Row::output(name, Unit::JOULE, 1e-3, description, read);
-        let touching = names(&[rows::PLACES, D::DISPLACEMENT_AT_START]);
-        let pressed = names(&[&touching, &["contact.normal_stiffness"], S::Normal::PARAMETERS]);
+        let pressed = Self::pressed(at_start);
         [
             energy(
                 "energy.kinetic",
                 "Kinetic energy of translation and rotation",
                 |packing: &Self| packing.engine.kinetic_energy(),
-            ),
+            )
+            .depending_on(&at_start.kinetic_energy),
             energy(
                 "energy.potential",
                 "Energy in gravity, zero at the height of the base at rest",
@@ -153,7 +189,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
                 "Closed contacts, with the walls and the base",
                 |packing: &Self| i64::from(packing.engine.observables().contacts),
             )
-            .depending_on(&touching),
+            .depending_on(&at_start.touching),
         ]
     }
 }
@@ -173,6 +209,10 @@ impl<S: SoftMethod, D: BaseDrive> DisksOnBase for SoftPacking<S, D> {
 
     fn base_at(&self, _time: f64) -> Motion {
         self.engine.observables().base
+    }
+
+    fn base_impulse(&self) -> f64 {
+        -self.engine.impulse_of_wall(FLOOR)[1]
     }
 }
 
@@ -198,16 +238,18 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
 
     fn variables(structure: &StructuralParameters) -> Vec<Row<Self>> {
         let disks = info::disks(structure);
-        let at_start = AtStart::of::<D>(&[]);
+        let at_start = AtStart::of::<D>(&[], S::Normal::PARAMETERS);
         let mut rows = rows::parameters();
         rows.extend(S::Normal::rows());
         rows.extend(S::parameters());
         rows.extend(D::rows());
+        rows.push(settled::parameter(D::STEERED));
         rows.extend(Self::time_steps());
         rows.extend(radii(disks, 0.02, &at_start.radii, |packing: &Self, disk| {
             packing.engine.radii()[disk]
         }));
         rows.extend(rows::means_and_base(&at_start));
+        rows.push(Self::force_now(&at_start));
         rows.extend(Self::energies_and_contacts(&at_start));
         rows.extend(rows::each_disk(disks, &at_start));
         complete(rows)
@@ -215,7 +257,13 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
 
     fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
         let disks = initial_packing::disks(info::disks(structure), values, 0.0)?;
-        Self::of_disks(&disks, start_time, values)
+        let Settled { disks, warning } = settled::soft(disks, S::Normal::from_values(values), values)?;
+        let mut packing = Self::of_disks(&disks, start_time, values)?;
+        packing.warning = warning;
+        if settled::is_wanted(values) {
+            packing.move_with_base();
+        }
+        Ok(packing)
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
@@ -236,6 +284,11 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
             reaction_force: (impulse - self.engine.impulse_of_wall(FLOOR)[1]) / duration,
         };
         Ok(())
+    }
+
+    fn warnings(&self) -> Vec<Warning> {
+        let inputs = self.engine.state().drive.warning();
+        self.warning.iter().cloned().chain(inputs).collect()
     }
 
     fn limit_work(&mut self, most: u64) {

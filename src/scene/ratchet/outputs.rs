@@ -96,6 +96,7 @@ where
             bodies: "disks on the base",
             note: "",
             position_at_start: &names(&[D::DISPLACEMENT_AT_START]),
+            velocity_at_start: &names(&[D::VELOCITY_AT_START]),
             acceleration_at_start: &names(&[D::ACCELERATION_AT_START]),
         };
         let mean_power = Row::output(
@@ -118,6 +119,7 @@ where
             potential: "Energy in gravity, zero at the height of the valleys at rest",
             lost: "Energy lost in impacts since the start",
             residual: "Change of energy less work of the base plus losses: rounding",
+            kinetic_at_start: &names(&[]),
             potential_at_start: &names(&[ROWS_OF_DISKS, D::DISPLACEMENT_AT_START, WEIGHTS]),
         }
         .rows()

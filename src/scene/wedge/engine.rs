@@ -3,7 +3,7 @@
 use crate::drive::Motion;
 use crate::engine::{DiskMotion, Engine};
 use crate::error::are_sane;
-use crate::scene::{Error, Result, Row, Values};
+use crate::scene::{Error, Result, Row, Values, Warning};
 
 /// Energies per mass of the disk \[J/kg\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +33,8 @@ pub struct AtStart {
     pub place: &'static [&'static str],
     /// What the displacement of the base depends on.
     pub displacement: &'static [&'static str],
+    /// What its velocity depends on.
+    pub velocity: &'static [&'static str],
     /// What its acceleration depends on.
     pub acceleration: &'static [&'static str],
 }
@@ -68,6 +70,11 @@ pub trait WedgeEngine: Engine {
 
     /// Takes the inputs at `time` \[s\] for a step of `duration` \[s\].
     fn set_target(&mut self, time: f64, duration: f64, values: &Values);
+
+    /// What is doubtful of the inputs so far.
+    fn warning(&self) -> Option<Warning> {
+        None
+    }
 
     /// The refusal of a step that the engine could not finish.
     fn refused_step(stop: Self::Stop) -> Error;

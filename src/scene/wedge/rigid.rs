@@ -11,7 +11,7 @@ use crate::drive::{AtRandomPhase, FirstHit, Motion, RandomPhase, Sine};
 use crate::engine::DiskMotion;
 use crate::engine::wedge::{DiskInWedge, NO_PROGRESS, Side, Start, Stuck, WedgeSetup, WedgeStop};
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::{Error, Kind, Result, Row, Unit, Values};
+use crate::scene::{Error, Kind, Result, Row, Unit, Values, Warning};
 
 use super::engine::{AtStart, SpecificEnergies, WedgeEngine};
 use super::rows::{self, NAME};
@@ -135,6 +135,7 @@ impl WedgeEngine for Map {
     const AT_START: AtStart = AtStart {
         place: &["seed"],
         displacement: &[],
+        velocity: &[],
         acceleration: &[],
     };
 
@@ -193,6 +194,7 @@ impl<D: BaseDrive + FirstHit> WedgeEngine for EventDriven<D> {
     const AT_START: AtStart = AtStart {
         place: &["seed"],
         displacement: D::DISPLACEMENT_AT_START,
+        velocity: D::VELOCITY_AT_START,
         acceleration: D::ACCELERATION_AT_START,
     };
 
@@ -237,6 +239,10 @@ impl<D: BaseDrive + FirstHit> WedgeEngine for EventDriven<D> {
         if D::STEERED {
             self.steer(time, |walls| walls.set_target(time, duration, values));
         }
+    }
+
+    fn warning(&self) -> Option<Warning> {
+        self.state().walls.warning()
     }
 
     fn refused_step(stop: WedgeStop) -> Error {

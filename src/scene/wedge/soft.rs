@@ -11,7 +11,7 @@ use crate::geometry::{Disk, Vector2, Wall, clockwise};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::names;
 use crate::scene::soft_disks::{STEP_OF_ONE_DISK, chosen_time_step, contact_laws, refused_step};
-use crate::scene::{Error, Result, Row, Unit, Values};
+use crate::scene::{Error, Result, Row, Unit, Values, Warning};
 
 use super::engine::{AtStart, SpecificEnergies, WedgeEngine};
 use super::rows::{self, NAME};
@@ -32,6 +32,7 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
     const AT_START: AtStart = AtStart {
         place: &[],
         displacement: D::DISPLACEMENT_AT_START,
+        velocity: D::VELOCITY_AT_START,
         acceleration: D::ACCELERATION_AT_START,
     };
 
@@ -119,6 +120,10 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
 
     fn set_target(&mut self, time: f64, duration: f64, values: &Values) {
         self.drive_mut().set_target(time, duration, values);
+    }
+
+    fn warning(&self) -> Option<Warning> {
+        self.state().drive.warning()
     }
 
     fn refused_step(breakdown: Breakdown) -> Error {

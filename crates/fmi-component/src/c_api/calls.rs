@@ -23,6 +23,7 @@ pub unsafe fn transition(entry: Entry, change: fn(&mut Instance) -> Result<()>) 
         entry.change(|component| {
             change(&mut component.instance)?;
             component.log_phase(entry.function);
+            component.warn(entry.function);
             Ok(())
         })
     }

@@ -30,6 +30,8 @@ pub struct Component {
     pub listener: Option<Listener>,
     /// What it saved.
     pub states: SavedStates,
+    /// Topics of the warnings that were told.
+    warned: Vec<&'static str>,
     /// Values on their way to the importer.
     pub reals: Vec<f64>,
 }
@@ -64,6 +66,7 @@ pub fn instantiate(
                 version,
                 listener,
                 states: SavedStates::default(),
+                warned: Vec::new(),
                 reals: Vec::new(),
             };
             return Handle::hand_out(component).cast();
@@ -199,11 +202,23 @@ impl Component {
         }
     }
 
+    /// Logs what has become doubtful, once for each topic.
+    pub fn warn(&mut self, function: &str) {
+        for warning in self.instance.warnings() {
+            if !self.warned.contains(&warning.topic) {
+                self.warned.push(warning.topic);
+                let message = format!("{function}: {}", warning.text);
+                self.logger.log(Status::Warning, Category::Warning, &message);
+            }
+        }
+    }
+
     /// Becomes as a new instance. Saved states stay: the importer frees them.
     pub fn reset(&mut self) {
         self.instance.reset();
         self.last_step = Status::Ok;
         self.refused = None;
+        self.warned.clear();
     }
 
     /// Logs a change in the life of the instance.

@@ -200,6 +200,9 @@ pub unsafe fn do_step(entry: Entry, current: f64, step: f64, results: StepResult
                 Some(_) => component.instance.begin_step(current, step),
             };
             event = component.end_part(asked, part, &results)?;
+            if event.is_none() {
+                component.warn(entry.function);
+            }
             Ok(())
         })
     };
@@ -210,6 +213,9 @@ pub unsafe fn do_step(entry: Entry, current: f64, step: f64, results: StepResult
             entry.resume(|component| {
                 let part = component.instance.resume_step(early_return);
                 event = component.end_part(asked, part, &results)?;
+                if event.is_none() {
+                    component.warn(entry.function);
+                }
                 Ok(())
             })
         };

@@ -13,6 +13,8 @@ pub enum Category {
     Error,
     /// A refused step.
     Discard,
+    /// Something doubtful.
+    Warning,
     /// Life cycle.
     Events,
 }
@@ -81,7 +83,12 @@ impl Logger {
 
     /// Sends `message` if its category is on.
     pub fn log(&self, status: Status, category: Category, message: &str) {
-        const NAMES: [&CStr; LOG_CATEGORIES.len()] = [c"logStatusError", c"logStatusDiscard", c"logEvents"];
+        const NAMES: [&CStr; LOG_CATEGORIES.len()] = [
+            c"logStatusError",
+            c"logStatusDiscard",
+            c"logStatusWarning",
+            c"logEvents",
+        ];
         if !self.on[category as usize] {
             return;
         }
@@ -124,6 +131,7 @@ mod tests {
     fn categories_are_those_declared() {
         assert_eq!(LOG_CATEGORIES[Category::Error as usize].0, "logStatusError");
         assert_eq!(LOG_CATEGORIES[Category::Discard as usize].0, "logStatusDiscard");
+        assert_eq!(LOG_CATEGORIES[Category::Warning as usize].0, "logStatusWarning");
         assert_eq!(LOG_CATEGORIES[Category::Events as usize].0, "logEvents");
     }
 }

@@ -53,16 +53,31 @@ impl Laws {
         self.normal.stiffness * overlap + self.normal.damping * closing
     }
 
-    /// Energy \[J\] in both springs of a contact with this overlap \[m\].
-    pub fn elastic_energy(&self, contact: &Contact, overlap: f64) -> f64 {
-        let stretch = match contact.phase {
-            LocatedPhase::Open => return 0.0,
-            LocatedPhase::Unpressed => 0.0,
+    /// Stretch \[m\] of the tangential spring of a closed contact with this overlap \[m\].
+    fn stretch(&self, contact: &Contact, overlap: f64) -> f64 {
+        match contact.phase {
+            LocatedPhase::Open | LocatedPhase::Unpressed => 0.0,
             LocatedPhase::Stick => contact.kinematics.tangential_displacement - contact.reference,
             LocatedPhase::SlipForward | LocatedPhase::SlipBackward => {
                 self.slip_compliance * self.normal_force(overlap, contact.kinematics.closing)
             }
-        };
-        self.normal.energy(overlap) + self.tangential.energy(stretch)
+        }
+    }
+
+    /// Energy \[J\] in both springs of a contact with this overlap \[m\].
+    pub fn elastic_energy(&self, contact: &Contact, overlap: f64) -> f64 {
+        if contact.phase == LocatedPhase::Open {
+            return 0.0;
+        }
+        self.normal.energy(overlap) + self.tangential.energy(self.stretch(contact, overlap))
+    }
+
+    /// Normal and tangential force \[N\] of a contact with this overlap \[m\] and closing velocity \[m/s\].
+    pub fn forces(&self, contact: &Contact, overlap: f64, closing: f64) -> [f64; 2] {
+        if contact.phase == LocatedPhase::Open {
+            return [0.0; 2];
+        }
+        let tangential = self.tangential.force(self.stretch(contact, overlap));
+        [self.normal_force(overlap, closing).max(0.0), tangential]
     }
 }

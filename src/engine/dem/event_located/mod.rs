@@ -114,6 +114,22 @@ impl Stepper for EventStepper {
         (&disks.positions, &disks.velocities)
     }
 
+    fn set_velocity(&self, disks: &mut Disks, [x, y]: [f64; 2]) {
+        disks.velocities.fill([x, y, 0.0]);
+    }
+
+    fn base_force(&self, disks: &Disks, base: Motion) -> f64 {
+        let arrays = self.arrays(disks);
+        let force = |contact: &Contact| {
+            let [disk, wall] = contact.bodies();
+            let wall = &self.constants.setup.walls[wall];
+            let now = arrays.of_wall(disk, wall, &base);
+            let [normal, tangential] = self.laws.forces(contact, now.overlap, now.closing);
+            wall.follows_base * (normal * wall.normal.y + tangential * wall.tangent().y)
+        };
+        disks.wall_contacts.iter().map(force).sum()
+    }
+
     fn impulse_of_wall(&self, disks: &Disks, wall: usize) -> [f64; 2] {
         disks.wall_impulses[wall]
     }

@@ -129,6 +129,15 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
         (&disks.positions()[..count], &disks.velocities()[..count])
     }
 
+    fn set_velocity(&self, disks: &mut Disks, [x, y]: [f64; 2]) {
+        let (velocities, _) = disks.velocity.as_chunks_mut();
+        velocities[..self.constants.radii.len()].fill([x, y, 0.0]);
+    }
+
+    fn base_force(&self, disks: &Disks, _base: Motion) -> f64 {
+        disks.base_force
+    }
+
     fn impulse_of_wall(&self, disks: &Disks, wall: usize) -> [f64; 2] {
         let first = 3 * self.constants.radii.len() + 2 * wall;
         [disks.velocity[first], disks.velocity[first + 1]]

@@ -209,10 +209,15 @@ fn the_force_now_carries_the_weight_at_rest() {
 fn shaken<M: Model>(gamma: f64, samples: Option<u32>, seconds: f64) -> [f64; 2] {
     let size = gamma / 2.0;
     // At the usual stiffness the packing resonates near the frequency of the drive.
-    let mut given = vec![("initial.settled", 1.0), ("contact.normal_stiffness", 1e6)];
-    if samples.is_none() {
-        given.push(("drive.amplitude", size * AMPLITUDE));
-    }
+    let mut given = vec![
+        ("initial.settled", 1.0),
+        ("contact.normal_stiffness", 1e6),
+        ("contact.normal_damping", 2.0),
+    ];
+    given.push(match samples {
+        Some(_) => ("base.velocity", size * sine(0.0)[1]),
+        None => ("drive.amplitude", size * AMPLITUDE),
+    });
     let mut packing = simulation_of::<M>(20, &given);
     let step = 1.0 / (FREQUENCY * f64::from(samples.unwrap_or(25)));
     let count = (seconds / step).round() as u32;

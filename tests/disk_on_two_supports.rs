@@ -6,8 +6,9 @@
 mod raw_three_disk;
 
 use jostle::contact::{LinearDashpot, TangentialSpring};
+use jostle::drive::Degree;
 use jostle::drive::Sine;
-use jostle::drive::excitation::{Excitation, HarmonicTorque, HeldTorque, SineSupports, SupportMotion};
+use jostle::drive::excitation::{Excitation, HarmonicTorque, InputTorque, SineSupports, SupportMotion};
 use jostle::engine::disk_on_two_supports::{
     DiskOnTwoSupports, ENERGY_INPUT, ENERGY_LOST, SupportFrame, TimeStepLimits, TwoSupportsRig, TwoSupportsSetup,
     equilibrium,
@@ -122,12 +123,8 @@ fn still(place: [f64; 3]) -> Motion {
     [place[0], place[1], place[2], 0.0, 0.0, 0.0]
 }
 
-fn held(torque: f64) -> HeldTorque {
-    HeldTorque {
-        torque,
-        rate: 0.0,
-        since: 0.0,
-    }
+fn held(torque: f64) -> InputTorque {
+    InputTorque::starting(0.0, torque, 0.0, Degree::Automatic)
 }
 
 #[test]
@@ -393,7 +390,7 @@ fn spins_up_as_coulomb_says() {
         };
         let torque = 1.0 + 5.0 * friction;
         let mut engine = disk(&raw, held(torque), 0.5, rest(&raw), [0.0; 3]);
-        let spin_at = |engine: &mut DiskOnTwoSupports<HeldTorque>, time| {
+        let spin_at = |engine: &mut DiskOnTwoSupports<InputTorque>, time| {
             engine.advance(time, false).unwrap();
             engine.state().now.disk[5]
         };

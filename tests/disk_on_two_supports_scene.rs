@@ -4,7 +4,7 @@
 
 use std::f64::consts::FRAC_PI_6;
 
-use jostle::drive::excitation::{HarmonicTorque, HeldTorque, RandomSupports, SineSupports};
+use jostle::drive::excitation::{HarmonicTorque, InputTorque, RandomSupports, SineSupports};
 use jostle::scene::disk_on_two_supports::{
     DiskOnTwoSupportsDrive, DiskOnTwoSupportsOnHarmonicTorque, DiskOnTwoSupportsOnInput,
     DiskOnTwoSupportsOnRandomSupports, DiskOnTwoSupportsOnSine, DiskOnTwoSupportsScene,
@@ -91,7 +91,7 @@ fn a_step_interrupted_by_events_is_one_step() {
 
 #[test]
 fn a_held_torque_gives_the_same_bits_by_any_steps() {
-    any_way_there_gives_the_same_bits::<HeldTorque>(&[
+    any_way_there_gives_the_same_bits::<InputTorque>(&[
         ("torque", (-0.14).into()),
         ("disk.initial_angular_velocity", 1.0.into()),
         ("disk.drop_height", 0.02.into()),

@@ -1,6 +1,7 @@
 //! What turns the disk on two supports: pieces against formulas, random supports against their covariances.
 
-use jostle::drive::excitation::{Excitation, HarmonicTorque, HeldTorque, NoiseSign, Piece, RandomSupports, Vibration};
+use jostle::drive::Degree;
+use jostle::drive::excitation::{Excitation, HarmonicTorque, InputTorque, NoiseSign, Piece, RandomSupports, Vibration};
 
 /// The piece of an excitation is what its formula says.
 #[test]
@@ -13,11 +14,7 @@ fn excitations_follow_their_formulas() {
         let expected = 0.3 * (7.0_f64 * (start + offset)).sin();
         assert!((torque.piece(start).torque(offset) - expected).abs() < 1e-12);
     }
-    let linear = HeldTorque {
-        torque: 1.0,
-        rate: -2.0,
-        since: 3.0,
-    };
+    let linear = InputTorque::starting(3.0, 1.0, -2.0, Degree::Automatic);
     assert!((linear.piece(3.5).torque(0.25) - (1.0 - 2.0 * 0.75)).abs() < 1e-15);
 }
 

@@ -369,6 +369,19 @@ pub struct Extrapolation {
 }
 
 impl Extrapolation {
+    /// Coefficients of 1, t, ..., t^5 with t the time since `origin` \[s\].
+    pub fn counted_from(&self, origin: f64) -> [f64; MOST_COEFFICIENTS] {
+        let shift = origin - self.since;
+        let mut coefficients = self.coefficients;
+        // Horner's scheme again and again: division by (t' - shift).
+        for first in 0..MOST_COEFFICIENTS - 1 {
+            for index in (first..MOST_COEFFICIENTS - 1).rev() {
+                coefficients[index] += shift * coefficients[index + 1];
+            }
+        }
+        coefficients
+    }
+
     /// The quantity and its first and second rate at `time` \[s\].
     pub fn at(&self, time: f64) -> [f64; MOST_VALUES] {
         let t = time - self.since;

@@ -10,7 +10,7 @@ mod parameters;
 
 use serde::{Deserialize, Serialize};
 
-use crate::drive::excitation::{HarmonicTorque, HeldTorque, Piece, RandomSupports, SineSupports};
+use crate::drive::excitation::{HarmonicTorque, InputTorque, Piece, RandomSupports, SineSupports};
 use crate::engine::disk_on_two_supports::contact::ContactForce;
 use crate::engine::disk_on_two_supports::{
     DiskOnTwoSupports, Record, TimeStepLimits, TwoSupportsSetup, TwoSupportsState, TwoSupportsStop, equilibrium,
@@ -20,11 +20,11 @@ use crate::error::are_sane;
 use crate::measure::BatchMeans;
 
 use super::disks_on_base::complete;
-use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Values};
+use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Values, Warning};
 pub use drives::DiskOnTwoSupportsDrive;
 
 /// [`DiskOnTwoSupportsScene`] under the torque of an input.
-pub type DiskOnTwoSupportsOnInput = DiskOnTwoSupportsScene<HeldTorque>;
+pub type DiskOnTwoSupportsOnInput = DiskOnTwoSupportsScene<InputTorque>;
 /// [`DiskOnTwoSupportsScene`] under a harmonic torque (P 5.2).
 pub type DiskOnTwoSupportsOnHarmonicTorque = DiskOnTwoSupportsScene<HarmonicTorque>;
 /// [`DiskOnTwoSupportsScene`] on supports that vibrate randomly (P 5.3).
@@ -148,7 +148,8 @@ impl<E: DiskOnTwoSupportsDrive> DiskOnTwoSupportsScene<E> {
             time: from,
             upward: self.engine.state().now.disk[4],
         };
-        self.engine.steer(|excitation| excitation.set_target(from, values));
+        self.engine
+            .steer(|excitation| excitation.set_target(from, end_time, values));
         self.resume(end_time, stop, backup)
     }
 
@@ -301,6 +302,10 @@ impl<E: DiskOnTwoSupportsDrive> Model for DiskOnTwoSupportsScene<E> {
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
         self.step(end_time, values, false).map(|_| ())
+    }
+
+    fn warnings(&self) -> Vec<Warning> {
+        self.engine.state().excitation.warning().into_iter().collect()
     }
 
     fn limit_work(&mut self, most: u64) {

@@ -12,7 +12,7 @@ pub mod disks_on_base;
 pub mod drives {
     //! The drives of a base, one a file: their parameters and inputs as rows.
 
-    mod extrapolated;
+    pub(super) mod extrapolated;
     mod follows_input;
     pub mod sine;
 }

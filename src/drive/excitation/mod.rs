@@ -1,7 +1,7 @@
 //! What turns a disk on two supports: a torque on it, or a motion of the supports; one type a file.
 
 mod harmonic_torque;
-mod held_torque;
+mod input_torque;
 mod random_supports;
 mod sine_supports;
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 pub use harmonic_torque::HarmonicTorque;
-pub use held_torque::HeldTorque;
+pub use input_torque::InputTorque;
 pub use random_supports::{NoiseSign, RandomSupports, Vibration};
 pub use sine_supports::SineSupports;
 

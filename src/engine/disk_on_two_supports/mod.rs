@@ -114,10 +114,12 @@ impl<E: Excitation> DiskOnTwoSupports<E> {
         }
     }
 
-    /// Changes what drives the disk from now on. If `change` says that it did, a new grid of times starts here.
+    /// Changes what drives the disk from now on. If `change` says that this changes the drive in the present cell, a new grid of
+    /// times starts here.
     pub fn steer(&mut self, change: impl FnOnce(&mut E) -> bool) {
         let mut excitation = self.state.excitation.clone();
         if !change(&mut excitation) {
+            self.state.excitation = excitation;
             return;
         }
         let now = Node {

@@ -4,7 +4,7 @@ mod supports;
 mod torque;
 
 use crate::drive::excitation::Excitation;
-use crate::scene::{Row, Values};
+use crate::scene::{Row, Values, Warning};
 
 use super::DiskOnTwoSupportsScene;
 
@@ -44,9 +44,14 @@ pub trait DiskOnTwoSupportsDrive: Excitation {
     /// The excitation from `start_time` \[s\] on, in time steps of `time_step` \[s\].
     fn new(start_time: f64, time_step: f64, values: &Values) -> Self;
 
-    /// Takes the inputs at `time` \[s\]; says whether they change anything.
-    fn set_target(&mut self, _time: f64, _values: &Values) -> bool {
+    /// Takes the inputs at `time` \[s\] for a step to `end` \[s\]; says whether they change what the drive does.
+    fn set_target(&mut self, _time: f64, _end: f64, _values: &Values) -> bool {
         false
+    }
+
+    /// What is doubtful of the inputs so far.
+    fn warning(&self) -> Option<Warning> {
+        None
     }
 
     /// Whether `other` can be an earlier or later state of the same excitation.

@@ -183,17 +183,21 @@ impl Instance {
     /// All, or none if one is refused. The arrays are equally long.
     ///
     /// # Errors
-    /// As [`Instance::set`]; an order other than 1; an input whose derivative the model does not use.
+    /// As [`Instance::set`]; an order that is not positive; an input whose derivative of this order the model does not use.
     pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<()> {
         let mut targets = Vec::with_capacity(references.len());
         for (reference, order) in references.iter().zip(orders) {
             let position = self.position(*reference, Access::Real)?;
             let variable = &self.table.variables()[position];
-            let input = variable.causality == Causality::Input && *order == 1;
-            let Some(target) = self.table.derivative(position).filter(|_| input) else {
+            let derivative = |position| self.table.derivative(position);
+            let target = match (variable.causality, order) {
+                (Causality::Input, 1..) => (0..*order).try_fold(position, |position, _| derivative(position)),
+                _ => None,
+            };
+            let Some(target) = target else {
                 return Err(Error::call(
                     format!("the derivative of order {order} of {} has no effect", variable.name),
-                    "The model uses that of order 1 of inputs whose derivative is an input too.",
+                    "The model uses those of inputs whose derivative is an input too; orders are counted from 1.",
                 ));
             };
             targets.push(crate::standard::value_reference(target));

@@ -1,36 +1,43 @@
-//! Torques: held or with a rate, as the importer gives them, and harmonic.
+//! Torques: as the importer gives them, and harmonic.
 
 use std::f64::consts::TAU;
 
 use super::DiskOnTwoSupportsDrive;
-use crate::drive::excitation::{HarmonicTorque, HeldTorque};
+use crate::drive::excitation::{HarmonicTorque, InputTorque};
 use crate::scene::disk_on_two_supports::DiskOnTwoSupportsScene;
 use crate::scene::disks_on_base::names;
-use crate::scene::{Row, TIME, Unit, Values};
+use crate::scene::drives::extrapolated;
+use crate::scene::{Row, TIME, Unit, Values, Warning};
 
 /// Terminal of the input torque.
 const TERMINAL: &str = "torque";
 
-impl DiskOnTwoSupportsDrive for HeldTorque {
+const TORQUE: &str = "torque";
+const RATE: &str = "torque.rate";
+const DEGREE: &str = "torque.extrapolation_degree";
+
+impl DiskOnTwoSupportsDrive for InputTorque {
     const NAME: &'static str = "input";
     const DESCRIPTION: &'static str = "Disk on two supports that is turned by a torque";
     const TERMINAL: Option<&'static str> = Some(TERMINAL);
 
     fn rows<M>() -> Vec<Row<M>> {
         vec![
+            extrapolated::degree_parameter(DEGREE, "the torque"),
             Row::input(
-                "torque",
+                TORQUE,
                 Unit::NEWTON_METRE,
                 0.1,
                 "Torque on the disk, counter-clockwise, at the present communication point",
             )
-            .with_derivative("torque.rate")
+            .with_derivative(RATE)
             .in_terminal(TERMINAL, "torque"),
             Row::input(
-                "torque.rate",
+                RATE,
                 Unit::NEWTON_METRE_PER_SECOND,
                 1.0,
-                "Rate of the torque during the next communication step; 0 holds the torque",
+                "Rate of the torque at the present communication point. Optional: while it has been 0 throughout, the rate is that of \
+                 the torques so far",
             )
             .in_terminal(TERMINAL, "rate"),
         ]
@@ -41,15 +48,21 @@ impl DiskOnTwoSupportsDrive for HeldTorque {
     }
 
     fn new(start_time: f64, _time_step: f64, values: &Values) -> Self {
-        Self {
-            torque: values.real("torque"),
-            rate: values.real("torque.rate"),
-            since: start_time,
-        }
+        Self::starting(
+            start_time,
+            values.real(TORQUE),
+            values.real(RATE),
+            extrapolated::degree(DEGREE, values),
+        )
     }
 
-    fn set_target(&mut self, time: f64, values: &Values) -> bool {
-        Self::set_target(self, time, values.real("torque"), values.real("torque.rate"))
+    fn set_target(&mut self, time: f64, end: f64, values: &Values) -> bool {
+        Self::set_target(self, time, end, values.real(TORQUE), values.real(RATE))
+    }
+
+    fn warning(&self) -> Option<Warning> {
+        let contradiction = self.history().contradiction()?;
+        Some(extrapolated::warning(&contradiction, [TORQUE, RATE, RATE]))
     }
 
     fn continues(&self, _other: &Self) -> bool {

@@ -9,8 +9,9 @@ use std::hint::black_box;
 
 use cpu_time::ProcessTime;
 use jostle::contact::{LinearDashpot, TangentialSpring};
+use jostle::drive::Degree;
 use jostle::drive::Sine;
-use jostle::drive::excitation::{Excitation, HarmonicTorque, HeldTorque, SupportMotion};
+use jostle::drive::excitation::{Excitation, HarmonicTorque, InputTorque, SupportMotion};
 use jostle::engine::Engine;
 use jostle::engine::dem::verlet::{Gear5, Integrator, PredictorCorrector, VelocityVerlet};
 use jostle::engine::dem::{self, ContactLaws, FixedGrid};
@@ -73,11 +74,7 @@ const SPIN: f64 = 0.2;
 /// One disk that falls on two walls and comes to rest, by the engine of this scene.
 fn fall(rig: TwoSupportsRig, step: f64, seconds: f64) -> Motion {
     let [x, y] = equilibrium(&rig, &[SupportMotion::REST; 2]).expect("rests");
-    let torque = HeldTorque {
-        torque: 0.0,
-        rate: 0.0,
-        since: 0.0,
-    };
+    let torque = InputTorque::starting(0.0, 0.0, 0.0, Degree::Automatic);
     let place = [x, y + HEIGHT, 0.0];
     let mut disk = DiskOnTwoSupports::new(TwoSupportsSetup::new(rig, step), torque, 0.0, place, [0.0, 0.0, SPIN]);
     disk.advance(seconds, false).expect("runs");

@@ -4,6 +4,7 @@
 //! Imports point one way: `scene -> measure -> engine, packing -> contact, collision, drive -> geometry`. Only `scene` knows the crate
 //! `fmi_component`, which makes a co-simulation component of a scene.
 
+mod clone_in_place;
 pub mod collision;
 pub mod contact;
 pub mod drive;

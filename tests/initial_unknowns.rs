@@ -13,7 +13,7 @@ use initial_unknowns::{Trials, differences};
 use jostle::scene::catalogue::{MODELS, Names};
 
 /// Few enough to be quick, enough for a second row of disks.
-const DISKS: u32 = 20;
+const DISKS: u32 = 12;
 /// Starting points that the scene accepts; fewer where laws are tabulated anew for each.
 const POINTS: usize = 16;
 const POINTS_OF_TABLES: usize = 5;

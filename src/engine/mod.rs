@@ -40,6 +40,11 @@ pub trait Engine: Sized + Send + 'static {
     /// A copy of all that the future depends on.
     fn copied_state(&self) -> Self::State;
 
+    /// The same into a state that is there, which allocates nothing where there is room: the backup of every step.
+    fn copy_state_to(&self, state: &mut Self::State) {
+        *state = self.copied_state();
+    }
+
     /// Whether `state`, observed at `time` \[s\], can be one of this run.
     fn fits(&self, state: &Self::State, time: f64) -> bool;
 

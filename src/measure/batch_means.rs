@@ -6,7 +6,9 @@
 //! the mean: `s / sqrt(n)` with s the standard deviation of n batch means.
 //! Source: batch means, S. Asmussen and P. Glynn, Stochastic Simulation (Springer 2007), section IV.5.
 
-use serde::{Deserialize, Serialize};
+use std::ops::Deref;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::error::are_sane;
 
@@ -20,7 +22,75 @@ pub struct BatchMeans {
     /// Duration of a batch \[s\].
     duration: f64,
     /// The quantity at the start and at the end of each batch.
-    readings: Vec<f64>,
+    readings: Readings,
+}
+
+/// Most readings: one more than batches, whereupon these are merged.
+const MOST_READINGS: usize = BatchMeans::MOST + 1;
+
+/// Numbers in place, so that a copy of the means, which every step makes, allocates nothing. Saved as a sequence.
+#[derive(Clone, Copy)]
+struct Readings {
+    numbers: [f64; MOST_READINGS],
+    count: usize,
+}
+
+impl Readings {
+    const NONE: Self = Self {
+        numbers: [0.0; MOST_READINGS],
+        count: 0,
+    };
+
+    fn push(&mut self, number: f64) {
+        self.numbers[self.count] = number;
+        self.count += 1;
+    }
+
+    /// Keeps the first and every second one after it.
+    fn halve(&mut self) {
+        self.count = self.count.div_ceil(2);
+        for index in 0..self.count {
+            self.numbers[index] = self.numbers[2 * index];
+        }
+    }
+}
+
+impl Deref for Readings {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        &self.numbers[..self.count]
+    }
+}
+
+impl PartialEq for Readings {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
+impl std::fmt::Debug for Readings {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        (**self).fmt(formatter)
+    }
+}
+
+impl Serialize for Readings {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        (**self).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Readings {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let given = Vec::<f64>::deserialize(deserializer)?;
+        if given.len() > MOST_READINGS {
+            return Err(serde::de::Error::invalid_length(given.len(), &"readings of batches"));
+        }
+        let mut readings = Self::NONE;
+        given.into_iter().for_each(|number| readings.push(number));
+        Ok(readings)
+    }
 }
 
 impl BatchMeans {
@@ -34,7 +104,7 @@ impl BatchMeans {
         Self {
             start,
             duration,
-            readings: Vec::with_capacity(Self::MOST + 1),
+            readings: Readings::NONE,
         }
     }
 
@@ -48,11 +118,7 @@ impl BatchMeans {
     pub fn record(&mut self, quantity: f64) {
         self.readings.push(quantity);
         if self.readings.len() > Self::MOST {
-            let mut index = 0_usize;
-            self.readings.retain(|_| {
-                index += 1;
-                index % 2 == 1
-            });
+            self.readings.halve();
             self.duration *= 2.0;
         }
     }

@@ -7,6 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::clone_in_place::clone_in_place;
 use crate::error::are_sane;
 
 use super::BatchMeans;
@@ -14,7 +15,7 @@ use super::BatchMeans;
 /// Mean horizontal velocity since a mark.
 ///
 /// It is the duty of the caller to [`Transport::record`] at each [`Transport::due`] time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub struct Transport {
     /// Start of the average \[s\].
     mark: f64,
@@ -25,6 +26,13 @@ pub struct Transport {
     /// Mean displacement since the mark, at the ends of batches.
     batches: BatchMeans,
 }
+
+clone_in_place!(Transport {
+    mark,
+    positions,
+    work,
+    batches
+});
 
 impl Transport {
     /// First duration of a batch \[s\]; it doubles as the average goes on.
@@ -40,6 +48,18 @@ impl Transport {
         }
     }
 
+    /// Becomes an average from `mark` \[s\] on.
+    pub fn restart(&mut self, mark: f64) {
+        self.positions.clear();
+        (self.mark, self.work) = (mark, 0.0);
+        self.batches = BatchMeans::new(mark, Self::FIRST_BATCH);
+    }
+
+    /// Makes room for as many disks, so that nothing is allocated when they are recorded first.
+    pub fn make_room(&mut self, disks: usize) {
+        self.positions.reserve(disks.saturating_sub(self.positions.len()));
+    }
+
     /// Time \[s\] at which the disks have to be recorded next; the first is the mark.
     pub fn due(&self) -> f64 {
         self.batches.due()
@@ -48,7 +68,8 @@ impl Transport {
     /// Takes the positions \[m\] at the time that was due, and the work \[J\] of the base so far.
     pub fn record(&mut self, positions: impl ExactSizeIterator<Item = f64>, work: f64) {
         if self.positions.is_empty() {
-            (self.positions, self.work) = (positions.collect(), work);
+            self.positions.extend(positions);
+            self.work = work;
             self.batches.record(0.0);
         } else {
             let displacement = self.mean_displacement(positions);

@@ -9,6 +9,7 @@ mod start;
 
 use serde::{Deserialize, Serialize};
 
+use crate::clone_in_place::clone_in_place;
 use crate::collision::{Coulomb, VelocityFloor};
 use crate::drive::{BaseMotion, BoundedDrive, FollowsInput, Motion, Sine};
 use crate::engine::event_driven::{
@@ -53,6 +54,8 @@ pub struct Ratchet<D: BoundedDrive> {
     start_energy: f64,
     report: StepReport,
     averages: Averages,
+    /// The state before the step under way.
+    backup: RatchetState<Sawtooth<D>>,
 }
 
 /// State of a [`Ratchet`].
@@ -69,13 +72,15 @@ pub struct RatchetState<B> {
 }
 
 /// Averages since `measure.start` or the last change of `measure.mark`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub struct Averages {
     /// The averages.
     pub transport: Transport,
     /// `measure.mark` in the last communication step.
     pub mark: f64,
 }
+
+clone_in_place!(Averages { transport, mark });
 
 impl<D> Ratchet<D>
 where
@@ -92,11 +97,11 @@ where
     /// # Errors
     /// As [`Model::advance_to`]; what was shown then does not count.
     pub fn advance_observed(&mut self, end_time: f64, values: &Values, observer: &mut impl Observer) -> Result<()> {
-        let backup = self.saved();
+        self.back_up();
         let (from, impulse) = (self.report.time, self.engine.state().counts.base_impulse);
         let outcome = self.run_to(end_time, values, observer);
         if let Err(error) = outcome.and_then(|()| self.check(NAME, end_time)) {
-            self.go_back(&backup)?;
+            self.go_back(&self.backup.clone())?;
             return Err(error);
         }
         let given = self.engine.state().counts.base_impulse - impulse;
@@ -120,8 +125,8 @@ where
         let mut budget = WorkBudget::at_most(self.most_work);
         let mark = values.real("measure.mark");
         if mark != self.averages.mark {
-            let transport = Transport::new(from);
-            self.averages = Averages { transport, mark };
+            self.averages.transport.restart(from);
+            self.averages.mark = mark;
         }
         while self.averages.transport.due() <= end_time {
             let due = self.averages.transport.due();
@@ -144,6 +149,19 @@ where
             start_energy: self.start_energy,
             averages: self.averages.clone(),
         }
+    }
+
+    /// As [`Self::saved`], into memory that is there: every step does it.
+    fn back_up(&mut self) {
+        let RatchetState {
+            engine,
+            report,
+            start_energy,
+            averages,
+        } = &mut self.backup;
+        self.engine.copy_state_to(engine);
+        averages.clone_from(&self.averages);
+        (*report, *start_energy) = (self.report, self.start_energy);
     }
 
     fn go_back(&mut self, state: &RatchetState<Sawtooth<D>>) -> Result<()> {
@@ -211,8 +229,23 @@ where
             space,
         };
         let engine = EventDriven::new(model, &disks, &masses, &vec![[0.0; 3]; disks.len()], settings);
+        let report = StepReport::at_start(start_time);
+        let mut transport = Transport::new(values.real("measure.start").max(start_time));
+        transport.make_room(disks.len());
+        let averages = Averages {
+            transport,
+            mark: values.real("measure.mark"),
+        };
+        let mut backup = RatchetState {
+            engine: engine.state().clone(),
+            report,
+            start_energy: 0.0,
+            averages: averages.clone(),
+        };
+        backup.averages.transport.make_room(disks.len());
         let mut ratchet = Self {
             engine,
+            backup,
             layers: start::layers(disks.len(), values),
             masses,
             gravity,
@@ -220,11 +253,8 @@ where
             headroom,
             most_work: MOST_WORK_IN_A_CALL,
             start_energy: 0.0,
-            report: StepReport::at_start(start_time),
-            averages: Averages {
-                transport: Transport::new(values.real("measure.start").max(start_time)),
-                mark: values.real("measure.mark"),
-            },
+            report,
+            averages,
         };
         ratchet.start_energy = ratchet.energies().total();
         Ok(ratchet)

@@ -56,8 +56,10 @@ const VELOCITY: &[&str] = &["gravity", "seed", "wedge.aperture", "wedge.tilt", "
 
 /// One disk in a wedge, advanced by the engine E.
 #[derive(Debug)]
-pub struct Wedge<E> {
+pub struct Wedge<E: WedgeEngine> {
     engine: E,
+    /// The engine's state before the step under way.
+    backup: E::State,
     /// m \[kg\].
     mass: f64,
     /// R / (A omega_b) \[s\]: what scales an angular velocity.
@@ -80,7 +82,7 @@ pub struct WedgeState<S> {
     pub turning: BatchMeans,
 }
 
-impl<E> AsRef<E> for Wedge<E> {
+impl<E: WedgeEngine> AsRef<E> for Wedge<E> {
     fn as_ref(&self) -> &E {
         &self.engine
     }
@@ -260,6 +262,7 @@ impl<E: WedgeEngine> Model for Wedge<E> {
         let engine = E::from_values(start_time, values)?;
         let since = start_time.max(values.real("measure.start"));
         let mut scene = Self {
+            backup: engine.copied_state(),
             engine,
             mass: values.real("disk.mass"),
             most_work: MOST_WORK_IN_A_CALL,
@@ -272,13 +275,14 @@ impl<E: WedgeEngine> Model for Wedge<E> {
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        let backup = self.state();
+        self.engine.copy_state_to(&mut self.backup);
+        let turning = self.turning.clone();
         let from = self.report.time;
         let impulse = self.engine.impulse() * self.mass;
         self.engine.set_target(from, end_time - from, values);
         if let Err(error) = self.run_sanely(end_time) {
-            self.engine.restore(&backup.engine, from).map_err(E::refused_step)?;
-            self.turning = backup.turning;
+            self.engine.restore(&self.backup, from).map_err(E::refused_step)?;
+            self.turning = turning;
             return Err(error);
         }
         self.report = StepReport {

@@ -3,6 +3,8 @@
 //! Exit codes: 0 done; 2 an argument is wrong and nothing was run; 1 a run or a file failed on the way.
 
 mod csv_file;
+mod machine;
+mod real_time;
 mod report;
 mod stability;
 
@@ -11,7 +13,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use jostle::Error;
 
-/// Error against run time, and stability where it is hard.
+/// Error against run time, time of a step at the rates of controllers, and stability where it is hard.
 #[derive(Parser)]
 #[command(name = "jostle-bench", version, max_term_width = 100)]
 struct Arguments {
@@ -21,12 +23,14 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    RealTime(real_time::RealTime),
     Report(report::ReportCommand),
     Stability(stability::Stability),
 }
 
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
+        Command::RealTime(real_time) => real_time.execute(),
         Command::Report(report) => report.execute(),
         Command::Stability(stability) => stability.execute(),
     };

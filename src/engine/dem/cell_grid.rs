@@ -28,6 +28,8 @@ impl CellGrid {
     /// Replaces `pairs` by the indices of all pairs whose gap is less than the margin, in order.
     pub fn find(&mut self, cloud: Cloud<'_>, pairs: &mut Vec<[u32; 2]>) {
         self.sort_into_cells(cloud);
+        self.near.clear();
+        self.near.reserve(cloud.positions.len());
         pairs.clear();
         for first in 0..cloud.positions.len() {
             self.collect_near(cloud, first);
@@ -59,6 +61,7 @@ impl CellGrid {
 
         self.cell_of.clear();
         self.starts.clear();
+        self.starts.reserve(most as usize + 1);
         self.starts.resize(self.columns * self.rows + 1, 0);
         for &[x, y, _] in cloud.positions {
             let column = (((x - low[0]) * per_metre[0]) as usize).min(self.columns - 1);

@@ -73,6 +73,9 @@ pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
     /// Starts from positions and velocities that were set from outside: overlapping disks have just touched.
     fn start<D>(&mut self, state: &mut GridState<D, Self::Disks>);
 
+    /// Makes room for all the contacts that the disks may have, so that no step allocates for them.
+    fn make_room(disks: &mut Self::Disks);
+
     /// Advances by one step of `duration` \[s\] that ends at `time` \[s\]; does not count it.
     ///
     /// # Errors
@@ -131,9 +134,10 @@ pub struct FixedGrid<S: Stepper, D> {
     pub(super) stepper: S,
     state: GridState<D, S::Disks>,
     /// The state at the time last asked for, if that is no grid point.
-    between: Option<GridState<D, S::Disks>>,
+    between: GridState<D, S::Disks>,
+    is_between: bool,
     /// Memory for the next such state.
-    spare: Option<GridState<D, S::Disks>>,
+    spare: GridState<D, S::Disks>,
     backup: GridState<D, S::Disks>,
 }
 
@@ -152,12 +156,19 @@ impl<S: Stepper, D: Drive> FixedGrid<S, D> {
             contacts: 0,
         };
         stepper.start(&mut state);
+        S::make_room(&mut state.disks);
+        let copy = || {
+            let mut copy = state.clone();
+            S::make_room(&mut copy.disks);
+            copy
+        };
         Self {
             stepper,
-            backup: state.clone(),
+            between: copy(),
+            is_between: false,
+            spare: copy(),
+            backup: copy(),
             state,
-            between: None,
-            spare: None,
         }
     }
 
@@ -165,14 +176,14 @@ impl<S: Stepper, D: Drive> FixedGrid<S, D> {
     pub fn set_motion(&mut self, change: impl FnOnce(&mut S::Disks)) {
         change(&mut self.state.disks);
         self.stepper.start(&mut self.state);
-        self.between = None;
+        self.is_between = false;
     }
 
     /// Gives all disks the velocity (x, y) \[m/s\] and no rotation, and starts afresh from there.
     pub fn set_velocity(&mut self, velocity: [f64; 2]) {
         self.stepper.set_velocity(&mut self.state.disks, velocity);
         self.stepper.start(&mut self.state);
-        self.between = None;
+        self.is_between = false;
     }
 
     /// The drive, to be given new inputs.
@@ -185,26 +196,22 @@ impl<S: Stepper, D: Drive> FixedGrid<S, D> {
         let ahead = time - self.time();
         if ahead.abs() <= SNAP * self.setup().time_step {
             check::<S, D>(&self.state, time)?;
-            self.spare = self.between.take().or(self.spare.take());
+            self.is_between = false;
             return Ok(());
         }
-        let mut copy = self.spare.take().unwrap_or_else(|| self.state.clone());
-        copy.clone_from(&self.state);
-        let outcome = self.stepper.step(&mut copy, ahead, time);
-        let outcome = outcome.and_then(|()| check::<S, D>(&copy, time));
-        self.spare = if outcome.is_ok() {
-            self.between.replace(copy)
-        } else {
-            Some(copy)
-        };
-        outcome
+        self.spare.clone_from(&self.state);
+        self.stepper.step(&mut self.spare, ahead, time)?;
+        check::<S, D>(&self.spare, time)?;
+        std::mem::swap(&mut self.between, &mut self.spare);
+        self.is_between = true;
+        Ok(())
     }
 }
 
 impl<S: Stepper, D> FixedGrid<S, D> {
     /// The state at the time last asked for.
     pub fn now(&self) -> &GridState<D, S::Disks> {
-        self.between.as_ref().unwrap_or(&self.state)
+        if self.is_between { &self.between } else { &self.state }
     }
 
     /// What stays constant.
@@ -252,6 +259,10 @@ impl<S: Stepper, D: Drive> Engine for FixedGrid<S, D> {
 
     fn copied_state(&self) -> Self::State {
         self.state.clone()
+    }
+
+    fn copy_state_to(&self, state: &mut Self::State) {
+        state.clone_from(&self.state);
     }
 
     fn fits(&self, state: &Self::State, time: f64) -> bool {

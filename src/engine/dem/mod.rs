@@ -10,7 +10,6 @@
 mod angle;
 mod candidates;
 mod cell_grid;
-mod clone_in_place;
 pub mod event_located;
 mod fixed_grid;
 mod lanes;

@@ -85,7 +85,7 @@ impl<E: Excitation> DiskOnTwoSupports<E> {
                 now: start,
                 excitation,
             },
-            events: StepEvents::default(),
+            events: StepEvents::new(),
         }
     }
 

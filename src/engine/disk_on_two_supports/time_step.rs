@@ -19,6 +19,16 @@ pub struct StepEvents {
     pub end: Option<Node>,
 }
 
+impl StepEvents {
+    /// None yet, with room for as many as a step may have.
+    pub fn new() -> Self {
+        Self {
+            events: Vec::with_capacity(MOST_EVENTS),
+            end: None,
+        }
+    }
+}
+
 /// Why the engine cannot go on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TwoSupportsStop {

@@ -18,6 +18,7 @@ mod sawtooth;
 mod shells;
 mod space;
 mod state;
+mod waiting;
 mod walls;
 
 use nalgebra::Vector2;

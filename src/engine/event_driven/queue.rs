@@ -2,18 +2,14 @@
 //!
 //! Events are never removed before their time: an entry whose time is no longer its disk's next time is stale and is
 //! skipped when it comes up. Buckets of equal width hold the near events; the current bucket is kept sorted, events
-//! beyond the last bucket wait in a list. The order of events depends on times and indices alone, never on the widths, so
+//! beyond the last bucket wait in a list. All that waits is in one piece of memory with room for all: no bucket allocates
+//! when it gets more entries than ever. The order of events depends on times and indices alone, never on the widths, so
 //! that a calendar rebuilt from the next times continues to the bit.
 //! Source: Paul 2007, doi:10.1016/j.jcp.2006.06.042, with lazily removed entries.
 
 use std::cmp::Ordering;
 
-/// Next event of one disk.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Entry {
-    time: f64,
-    disk: u32,
-}
+use super::waiting::{Entry, List, Waiting};
 
 impl Entry {
     /// Latest first, so that the earliest is at the end of a sorted list.
@@ -33,14 +29,19 @@ const DELAYS_COVERED: f64 = 4.0;
 /// than the buckets were set up for, stale entries would else pile up until their time comes.
 const ENTRIES_PER_DISK: usize = 64;
 const ENTRIES_AT_LEAST: usize = 4096;
+/// Most entries for which there is room from the start: all that there can be with 2,000 disks.
+const MOST_ROOM: usize = 1 << 17;
 
 /// Calendar with lazily removed entries.
 #[derive(Debug, Clone, Default)]
 pub struct Calendar {
     /// Entries of the current bucket and of all before it, latest first.
     current: Vec<Entry>,
-    buckets: Vec<Vec<Entry>>,
-    far: Vec<Entry>,
+    buckets: Vec<List>,
+    far: List,
+    /// How many are in `far`.
+    far_count: usize,
+    waiting: Waiting,
     /// Buckets per second.
     rate: f64,
     /// Number of the current bucket since time zero.
@@ -54,10 +55,13 @@ impl Calendar {
     /// \[s\] on.
     pub fn reset(&mut self, disks: usize, mean_delay: f64, time: f64) {
         let count = (BUCKETS_PER_DISK * disks).next_power_of_two().clamp(64, MOST_BUCKETS);
-        self.buckets.iter_mut().for_each(Vec::clear);
-        self.buckets.resize_with(count, Vec::new);
+        self.buckets.clear();
+        self.buckets.resize(count, List::EMPTY);
         self.current.clear();
-        self.far.clear();
+        (self.far, self.far_count) = (List::EMPTY, 0);
+        let most = disks + Self::entries_between_removals(disks);
+        self.waiting.clear(most.min(MOST_ROOM));
+        self.current.reserve(2 * disks + 64);
         let rate = count as f64 / (DELAYS_COVERED * mean_delay);
         self.rate = if rate.is_finite() && rate > 0.0 { rate } else { 1.0 };
         self.base = self.bucket_of(time);
@@ -116,9 +120,10 @@ impl Calendar {
             self.current.insert(place, entry);
         } else if bucket < self.base + self.buckets.len() as i64 {
             let mask = self.buckets.len() - 1;
-            self.buckets[bucket as usize & mask].push(entry);
+            self.waiting.push(&mut self.buckets[bucket as usize & mask], entry);
         } else {
-            self.far.push(entry);
+            self.waiting.push(&mut self.far, entry);
+            self.far_count += 1;
         }
     }
 
@@ -130,24 +135,20 @@ impl Calendar {
             self.base += 1;
             empty += 1;
             let bucket = self.base as usize & (count - 1);
-            if bucket == 0 && !self.far.is_empty() {
-                let far = std::mem::take(&mut self.far);
-                let before = far.len();
-                far.into_iter()
-                    .filter(|entry| next_time(entry.disk) == entry.time)
-                    .for_each(|entry| self.put(entry));
-                if self.far.len() < before {
+            if bucket == 0 && self.far_count > 0 {
+                let before = self.far_count;
+                self.put_far_anew(next_time);
+                if self.far_count < before {
                     empty = 0; // some may have come into buckets that were passed already
                 }
             }
-            let entries = &mut self.buckets[bucket];
-            if !entries.is_empty() {
-                let valid = entries.iter().filter(|entry| next_time(entry.disk) == entry.time);
-                self.current.extend(valid);
-                entries.clear();
-                self.current.sort_unstable_by(Entry::descending);
+            while let Some(entry) = self.waiting.pop(&mut self.buckets[bucket]) {
+                if next_time(entry.disk) == entry.time {
+                    self.current.push(entry);
+                }
             }
             if !self.current.is_empty() {
+                self.current.sort_unstable_by(Entry::descending);
                 return true;
             }
         }
@@ -158,11 +159,11 @@ impl Calendar {
     #[cold]
     fn remove_stale(&mut self, next_time: &impl Fn(u32) -> f64) {
         let valid = |entry: &Entry| next_time(entry.disk) == entry.time;
-        let lists = self.buckets.iter_mut().chain([&mut self.current, &mut self.far]);
-        let mut left = 0;
-        for list in lists {
-            list.retain(valid);
-            left += list.len();
+        self.current.retain(valid);
+        self.far_count = self.waiting.retain(&mut self.far, valid);
+        let mut left = self.current.len() + self.far_count;
+        for list in &mut self.buckets {
+            left += self.waiting.retain(list, valid);
         }
         self.until_removal = Self::entries_between_removals(left);
     }
@@ -170,15 +171,27 @@ impl Calendar {
     /// Nothing in a whole year of buckets: goes straight to the earliest of the far events.
     #[cold]
     fn leap(&mut self, next_time: &impl Fn(u32) -> f64) -> bool {
-        self.far.retain(|entry| next_time(entry.disk) == entry.time);
-        let earliest = self.far.iter().map(|entry| entry.time).fold(f64::INFINITY, f64::min);
+        self.far_count = self
+            .waiting
+            .retain(&mut self.far, |entry| next_time(entry.disk) == entry.time);
+        let earliest = self.waiting.earliest(&self.far);
         if earliest == f64::INFINITY {
             return false;
         }
         self.base = self.bucket_of(earliest);
-        let far = std::mem::take(&mut self.far);
-        far.into_iter().for_each(|entry| self.put(entry));
+        self.put_far_anew(next_time);
         true
+    }
+
+    /// Sorts what is far, less what is stale, into buckets as far as these reach now.
+    fn put_far_anew(&mut self, next_time: &impl Fn(u32) -> f64) {
+        let mut far = std::mem::replace(&mut self.far, List::EMPTY);
+        self.far_count = 0;
+        while let Some(entry) = self.waiting.pop(&mut far) {
+            if next_time(entry.disk) == entry.time {
+                self.put(entry);
+            }
+        }
     }
 }
 
@@ -238,8 +251,7 @@ mod tests {
             calendar.schedule(disk, next[disk as usize]);
             calendar.schedule(other as u32, next[other]);
         }
-        let entries: usize = calendar.buckets.iter().map(Vec::len).sum();
-        assert!(entries + calendar.current.len() + calendar.far.len() <= 2 * ENTRIES_AT_LEAST);
+        assert!(calendar.waiting.most() + calendar.current.len() <= 2 * ENTRIES_AT_LEAST);
     }
 
     #[test]

@@ -8,6 +8,7 @@
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
+use crate::clone_in_place::clone_in_place;
 use crate::error::are_sane;
 use crate::geometry::Disk;
 
@@ -37,7 +38,7 @@ pub struct ShellEntry {
 }
 
 /// Neighbour lists and the cells behind them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shells {
     /// One for each disk.
     pub entries: Vec<ShellEntry>,
@@ -54,6 +55,18 @@ pub struct Shells {
     /// Cells per metre across and up.
     cells_per_metre: Vector2<f64>,
 }
+
+clone_in_place!(Shells {
+    entries,
+    rows,
+    stride,
+    heads,
+    columns,
+    lines,
+    factor,
+    corner,
+    cells_per_metre
+});
 
 impl Shells {
     /// Shells of disks of these masses \[kg\], `factor` > 1 times as wide as disks.

@@ -79,7 +79,7 @@ impl Counts {
 }
 
 /// Everything that changes with time. Times are local: the time is `epoch + local`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub struct EventDrivenState<B> {
     /// Origin of local time \[s\].
     pub epoch: f64,
@@ -94,6 +94,27 @@ pub struct EventDrivenState<B> {
     pub(super) shells: Shells,
 }
 
+impl<B: Clone> Clone for EventDrivenState<B> {
+    fn clone(&self) -> Self {
+        Self {
+            bodies: self.bodies.clone(),
+            spins: self.spins.clone(),
+            boundary: self.boundary.clone(),
+            shells: self.shells.clone(),
+            ..*self
+        }
+    }
+
+    /// Copies without allocating where there is room.
+    fn clone_from(&mut self, source: &Self) {
+        (self.epoch, self.counts) = (source.epoch, source.counts);
+        self.bodies.clone_from(&source.bodies);
+        self.spins.clone_from(&source.spins);
+        self.boundary.clone_from(&source.boundary);
+        self.shells.clone_from(&source.shells);
+    }
+}
+
 impl<L: CollisionLaw, B: Boundary, S: Space> Engine for EventDriven<L, B, S> {
     type State = EventDrivenState<B>;
     type Stop = EventDrivenStop;
@@ -104,6 +125,10 @@ impl<L: CollisionLaw, B: Boundary, S: Space> Engine for EventDriven<L, B, S> {
 
     fn copied_state(&self) -> EventDrivenState<B> {
         self.state.clone()
+    }
+
+    fn copy_state_to(&self, state: &mut EventDrivenState<B>) {
+        state.clone_from(&self.state);
     }
 
     /// As many disks, and indices that exist; at any time.

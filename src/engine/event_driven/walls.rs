@@ -53,7 +53,7 @@ impl VibratingBase for AtRandomPhase {
 }
 
 /// Up to 32 walls at rest or on a base.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub struct Walls<W> {
     /// The walls.
     pub walls: Vec<Wall>,
@@ -61,6 +61,23 @@ pub struct Walls<W> {
     pub base: W,
     /// Time \[s\] at which local time is zero.
     pub origin: f64,
+}
+
+impl<W: Clone> Clone for Walls<W> {
+    fn clone(&self) -> Self {
+        Self {
+            walls: self.walls.clone(),
+            base: self.base.clone(),
+            origin: self.origin,
+        }
+    }
+
+    /// Copies without allocating where there is room.
+    fn clone_from(&mut self, source: &Self) {
+        self.walls.clone_from(&source.walls);
+        self.base.clone_from(&source.base);
+        self.origin = source.origin;
+    }
 }
 
 impl Walls<Moving<FollowsInput>> {

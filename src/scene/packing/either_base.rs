@@ -72,6 +72,14 @@ impl Engine for EitherBase {
         }
     }
 
+    fn copy_state_to(&self, state: &mut EitherState) {
+        match (self, state) {
+            (Self::RandomPhase(run), EitherState::RandomPhase(state)) => run.copy_state_to(state),
+            (Self::Moving(run), EitherState::Moving(state)) => run.copy_state_to(state),
+            (_, state) => *state = self.copied_state(),
+        }
+    }
+
     fn fits(&self, state: &EitherState, time: f64) -> bool {
         match (self, state) {
             (Self::RandomPhase(run), EitherState::RandomPhase(state)) => run.fits(state, time),

@@ -29,8 +29,10 @@ pub type HardPackingOnSine = HardPacking<EitherBase>;
 
 /// Hard disks in a box, advanced by the engine E.
 #[derive(Debug)]
-pub struct HardPacking<E> {
+pub struct HardPacking<E: HardEngine> {
     engine: E,
+    /// The engine's state before the step under way.
+    backup: E::State,
     masses: Vec<f64>,
     radii: Vec<f64>,
     gravity: f64,
@@ -164,8 +166,10 @@ impl<E: HardEngine> Model for HardPacking<E> {
         let disks = initial_packing::disks(info::disks(structure), values, START_GAP)?;
         let Settled { disks, warning } = settled::hard(disks, values)?;
         let masses = initial_packing::masses(&disks, values);
+        let engine = E::from_values(&disks, &masses, start_time, values)?;
         let mut packing = Self {
-            engine: E::from_values(&disks, &masses, start_time, values)?,
+            backup: engine.copied_state(),
+            engine,
             masses,
             radii: disks.iter().map(|disk| disk.radius).collect(),
             gravity: values.real("gravity"),
@@ -179,7 +183,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        let backup = self.engine.copied_state();
+        self.engine.copy_state_to(&mut self.backup);
         let (from, impulse) = (self.report.time, self.counts().base_impulse);
         self.engine.set_target(from, end_time - from, values);
         let outcome = self
@@ -187,7 +191,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
             .advance_within(end_time, &mut WorkBudget::at_most(self.most_work));
         let outcome = outcome.map_err(refused_step).and_then(|()| self.check(NAME, end_time));
         if let Err(error) = outcome {
-            self.engine.restore(&backup, from).map_err(refused_step)?;
+            self.engine.restore(&self.backup, from).map_err(refused_step)?;
             return Err(error);
         }
         let given = self.counts().base_impulse - impulse;

@@ -27,8 +27,8 @@ const STEPS_OF_A_LOOK: f64 = 10.0;
 /// Kinetic energy over what falling by a radius would give at which the disks are at rest.
 const AT_REST: f64 = 1e-11;
 /// Time steps at most, and time steps times disks at most: some seconds of a core.
-const MOST_STEPS: f64 = 3e5;
-const MOST_DISK_STEPS: f64 = 2e8;
+const MOST_STEPS: f64 = 1e5;
+const MOST_DISK_STEPS: f64 = 1e8;
 
 /// Row of the parameter. `usual` is its start value.
 pub fn parameter<M>(usual: bool) -> Row<M> {

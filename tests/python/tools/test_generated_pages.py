@@ -6,11 +6,13 @@ from pathlib import Path
 import pytest
 
 from jostle_lab.errors import LabError
-from tools import stability_page
+from tools import real_time_page, stability_page
 from tools.paths import (
     BINARIES,
     BINARIES_PAGE,
     INSTRUCTION_COUNTS,
+    REAL_TIME,
+    REAL_TIME_PAGE,
     STABILITY,
     STABILITY_PAGE,
     WORK_PRECISION,
@@ -32,6 +34,11 @@ def test_committed_page_is_that_of_the_committed_data() -> None:
 def test_committed_stability_page_is_that_of_the_committed_data() -> None:
     written = stability_page.page(STABILITY)
     assert written == STABILITY_PAGE.read_text(), "write it anew: python -m tools stability"
+
+
+def test_committed_page_of_the_time_of_a_step_is_that_of_the_committed_data() -> None:
+    written = real_time_page.page(REAL_TIME)
+    assert written == REAL_TIME_PAGE.read_text(), "write it anew: python -m tools real-time"
 
 
 def test_committed_page_of_binaries_is_that_of_the_committed_data() -> None:

@@ -32,7 +32,7 @@ pub struct Component {
     pub states: SavedStates,
     /// Topics of the warnings that were told.
     warned: Vec<&'static str>,
-    /// Values on their way to the importer.
+    /// Values on their way to the importer, with room for all of them.
     pub reals: Vec<f64>,
 }
 
@@ -59,6 +59,7 @@ pub fn instantiate(
             let message = format!("{function}: {}", instance.token());
             logger.log(Status::Ok, Category::Events, &message);
             let component = Component {
+                reals: Vec::with_capacity(instance.scalars()),
                 instance,
                 logger,
                 last_step: Status::Ok,
@@ -67,7 +68,6 @@ pub fn instantiate(
                 listener,
                 states: SavedStates::default(),
                 warned: Vec::new(),
-                reals: Vec::new(),
             };
             return Handle::hand_out(component).cast();
         }
@@ -223,6 +223,9 @@ impl Component {
 
     /// Logs a change in the life of the instance.
     pub fn log_phase(&self, function: &str) {
+        if !self.logger.is_on(Category::Events) {
+            return; // without the memory of a message: event mode begins and ends within steps of the importer
+        }
         let (phase, time) = (self.instance.phase().name(), self.instance.time());
         let message = format!("{function}: {phase} at t = {time} s");
         self.logger.log(Status::Ok, Category::Events, &message);

@@ -81,6 +81,11 @@ impl Logger {
         Ok(())
     }
 
+    /// Whether messages of a category are sent.
+    pub fn is_on(&self, category: Category) -> bool {
+        self.on[category as usize]
+    }
+
     /// Sends `message` if its category is on.
     pub fn log(&self, status: Status, category: Category, message: &str) {
         const NAMES: [&CStr; LOG_CATEGORIES.len()] = [

@@ -75,6 +75,11 @@ impl Instance {
         self.slot(reference).map_or(1, |slot| slot.span.max(1))
     }
 
+    /// How many scalars there are, those in arrays included.
+    pub fn scalars(&self) -> usize {
+        self.slots.len()
+    }
+
     /// Whether a variable is behind `reference`.
     pub fn knows(&self, reference: u32) -> bool {
         reference == TIME_REFERENCE || self.slot(reference).is_some_and(|slot| slot.span > 0)
@@ -185,24 +190,24 @@ impl Instance {
     /// # Errors
     /// As [`Instance::set`]; an order that is not positive; an input whose derivative of this order the model does not use.
     pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<()> {
-        let mut targets = Vec::with_capacity(references.len());
-        for (reference, order) in references.iter().zip(orders) {
-            let position = self.position(*reference, Access::Real)?;
-            let variable = &self.table.variables()[position];
-            let derivative = |position| self.table.derivative(position);
-            let target = match (variable.causality, order) {
-                (Causality::Input, 1..) => (0..*order).try_fold(position, |position, _| derivative(position)),
-                _ => None,
-            };
-            let Some(target) = target else {
-                return Err(Error::call(
-                    format!("the derivative of order {order} of {} has no effect", variable.name),
-                    "The model uses those of inputs whose derivative is an input too; orders are counted from 1.",
-                ));
-            };
-            targets.push(crate::standard::value_reference(target));
-        }
-        self.set(&targets, Access::Real, |index| Value::Real(values[index]))
+        let derivative = |instance: &Self, index: usize| instance.input_derivative(references[index], orders[index]);
+        self.set_positions(references.len(), derivative, |index| Value::Real(values[index]))
+    }
+
+    /// Position of the input that is the derivative of this order of the input behind `reference`.
+    fn input_derivative(&self, reference: u32, order: i32) -> Result<usize> {
+        let position = self.position(reference, Access::Real)?;
+        let variable = &self.table.variables()[position];
+        let target = match (variable.causality, order) {
+            (Causality::Input, 1..) => (0..order).try_fold(position, |position, _| self.table.derivative(position)),
+            _ => None,
+        };
+        target.ok_or_else(|| {
+            Error::call(
+                format!("the derivative of order {order} of {} has no effect", variable.name),
+                "The model uses those of inputs whose derivative is an input too; orders are counted from 1.",
+            )
+        })
     }
 
     /// Stores all values or, if one of them is refused, none.
@@ -210,16 +215,27 @@ impl Instance {
     /// # Errors
     /// Unknown reference, other type, not to be set in this phase or at all, not finite, out of range.
     pub fn set(&mut self, references: &[u32], access: Access, value: impl Fn(usize) -> Value) -> Result<()> {
-        for (index, reference) in references.iter().enumerate() {
-            let variable = &self.table.variables()[self.position(*reference, access)?];
+        let position = |instance: &Self, index: usize| instance.position(references[index], access);
+        self.set_positions(references.len(), position, value)
+    }
+
+    /// Stores `count` values where `position` says, or none if one is refused.
+    fn set_positions(
+        &mut self,
+        count: usize,
+        position: impl Fn(&Self, usize) -> Result<usize>,
+        value: impl Fn(usize) -> Value,
+    ) -> Result<()> {
+        for index in 0..count {
+            let variable = &self.table.variables()[position(self, index)?];
             self.check_settable(variable)?;
             variable.check(value(index))?;
         }
-        if self.phase == Phase::Initialization && !references.is_empty() {
+        if self.phase == Phase::Initialization && count > 0 {
             self.simulation.stop(); // a model of the old values may have been built for reading outputs
         }
-        for (index, reference) in references.iter().enumerate() {
-            let position = self.position(*reference, access)?;
+        for index in 0..count {
+            let position = position(self, index)?;
             self.simulation.set_at(position, value(index))?;
         }
         Ok(())

@@ -24,6 +24,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use jostle::Error;
 
+use crate::machine;
 use case::{Case, Done, Point, Stopwatch};
 
 /// CPU seconds that make one measurement, if one solution is shorter.
@@ -74,7 +75,7 @@ impl ReportCommand {
         }
         std::fs::create_dir_all(&self.out)
             .with_context(|| format!("the folder {} cannot be made", self.out.display()))?;
-        tables::write_machine(&self.out.join("machine.csv"), self.rounds)?;
+        machine::write(&self.out.join("machine.csv"), &[("rounds", self.rounds.to_string())])?;
         tables::write_cases(&self.out.join("cases.csv"), &all_cases())?;
         for mut case in cases {
             let path = self.out.join(format!("points_{}.csv", case.name));

@@ -75,29 +75,3 @@ pub fn write_cases(path: &Path, cases: &[Case]) -> Result<()> {
     });
     write(path, std::iter::once(header).chain(rows))
 }
-
-/// `machine.csv`: where the CPU times come from.
-pub fn write_machine(path: &Path, rounds: u32) -> Result<()> {
-    let information = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let mut models = information.lines().filter(|line| line.starts_with("model name"));
-    let model = models
-        .next()
-        .and_then(|line| line.split_once(": "))
-        .map_or("unknown", |(_, model)| model);
-    let cores = std::thread::available_parallelism().map_or(0, usize::from);
-    let build = if cfg!(debug_assertions) { "debug" } else { "optimised" };
-    let target = format!(
-        "{}-{}, {build}, any processor of that kind (no target-cpu)",
-        std::env::consts::ARCH,
-        std::env::consts::OS
-    );
-    let rows = [
-        ["name".into(), "value".into()],
-        ["version".into(), env!("CARGO_PKG_VERSION").into()],
-        ["processor".into(), model.to_string()],
-        ["cores".into(), cores.to_string()],
-        ["target".into(), target],
-        ["rounds".into(), rounds.to_string()],
-    ];
-    write(path, rows)
-}

@@ -25,7 +25,7 @@ use crate::drive::{Drive, Motion};
 use crate::error::are_sane;
 use crate::geometry::Disk;
 
-use super::candidates::Candidate;
+use super::candidates::{self, Candidate};
 use super::fixed_grid::{GridState, Stepper};
 use super::setup::{Breakdown, SoftDiskSetup, SoftDisks};
 
@@ -69,8 +69,8 @@ impl Stepper for EventStepper {
             laws: Laws::new(&setup.laws),
             inverse_masses: inverse_masses.collect(),
             constants: SoftDisks::new(setup, disks),
-            scratch: StepScratch::default(),
-            neighbours: NeighbourList::default(),
+            scratch: StepScratch::new(disks.len()),
+            neighbours: NeighbourList::new(disks.len()),
         };
         (stepper, state)
     }
@@ -91,6 +91,12 @@ impl Stepper for EventStepper {
         let contacts = pairs.iter().chain(&wall_contacts);
         state.contacts = contacts.filter(|contact| contact.remembers()).count() as u32;
         (state.disks.pairs, state.disks.wall_contacts) = (pairs, wall_contacts);
+    }
+
+    fn make_room(disks: &mut Disks) {
+        let count = disks.positions.len();
+        candidates::make_room(&mut disks.pairs, count);
+        candidates::make_room(&mut disks.wall_contacts, count);
     }
 
     fn step<D: Drive>(&mut self, state: &mut GridState<D, Disks>, duration: f64, time: f64) -> Result<(), Breakdown> {

@@ -1,6 +1,6 @@
 //! The Verlet list, built anew at the start of the first step that could outrun it.
 
-use crate::engine::dem::candidates::{near_walls, renew};
+use crate::engine::dem::candidates::{make_room, near_walls, renew};
 use crate::engine::dem::cell_grid::{CellGrid, Cloud};
 use crate::engine::dem::fixed_grid::GridState;
 use crate::engine::dem::setup::{Breakdown, SoftDisks};
@@ -23,6 +23,14 @@ pub struct NeighbourList {
 }
 
 impl NeighbourList {
+    /// For so many disks.
+    pub fn new(disks: usize) -> Self {
+        let mut list = Self::default();
+        make_room(&mut list.pairs, disks);
+        make_room(&mut list.scratch, disks);
+        list
+    }
+
     /// Builds the list of all candidates at the start of a run.
     pub fn build<D>(&mut self, state: &mut GridState<D, Disks>, constants: &SoftDisks) {
         self.build_with(state, constants, MARGIN * constants.smallest_radius);

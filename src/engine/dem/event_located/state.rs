@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::clone_in_place::clone_in_place;
 use crate::engine::dem::candidates::Candidate;
-use crate::engine::dem::clone_in_place::clone_in_place;
 use crate::error::are_sane;
 
 /// Phase of a contact, in which its force is a smooth function of the motion.

@@ -2,6 +2,7 @@
 
 use crate::drive::Motion;
 use crate::engine::dem::angle::angle_between;
+use crate::engine::dem::candidates::make_room;
 use crate::geometry::Wall;
 
 use super::contact_step::ContactStep;
@@ -77,6 +78,14 @@ pub struct StepScratch {
 }
 
 impl StepScratch {
+    /// For so many disks.
+    pub fn new(disks: usize) -> Self {
+        let mut scratch = Self::default();
+        make_room(&mut scratch.pair_ends, disks);
+        make_room(&mut scratch.wall_ends, disks);
+        scratch
+    }
+
     /// Moves all disks to the end of the step by the forces at its start and their rates.
     pub fn predict(&mut self, context: &StepContext<'_>, pairs: &[Contact], wall_contacts: &[Contact]) {
         self.clear(context);

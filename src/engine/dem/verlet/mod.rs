@@ -17,6 +17,7 @@ use crate::drive::{Drive, Motion};
 use crate::error::are_sane;
 use crate::geometry::Disk;
 
+use super::candidates;
 use super::cell_grid::Cloud;
 use super::fixed_grid::{GridState, Stepper};
 use super::setup::{Breakdown, SoftDiskSetup, SoftDisks};
@@ -70,7 +71,7 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
             weight,
             force: vec![0.0; length],
             arc_lengths: vec![0.0; disks.len()],
-            neighbours: NeighbourList::new(constants.smallest_radius),
+            neighbours: NeighbourList::new(constants.smallest_radius, disks.len()),
             constants,
             integrator: PhantomData,
         };
@@ -97,6 +98,12 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
         }
         state.disks.dissipated_power = sums.dissipated_power;
         state.contacts = sums.contacts;
+    }
+
+    fn make_room(disks: &mut Disks) {
+        let count = disks.positions_at_list_build.len();
+        candidates::make_room(&mut disks.pairs, count);
+        candidates::make_room(&mut disks.wall_contacts, count);
     }
 
     fn step<D: Drive>(&mut self, state: &mut GridState<D, Disks>, duration: f64, time: f64) -> Result<(), Breakdown> {

@@ -5,7 +5,7 @@
 //! trajectory, depend neither on when a list was built nor on how the cells lie. Source: Verlet 1967,
 //! doi:10.1103/PhysRev.159.98.
 
-use crate::engine::dem::candidates::{near_walls, renew};
+use crate::engine::dem::candidates::{make_room, near_walls, renew};
 use crate::engine::dem::cell_grid::{CellGrid, Cloud};
 use crate::engine::dem::lanes::{F64x2, largest, transpose, xy};
 use crate::geometry::Wall;
@@ -44,12 +44,16 @@ pub struct NeighbourList {
 }
 
 impl NeighbourList {
-    /// For disks of which the smallest has this radius \[m\].
-    pub fn new(smallest_radius: f64) -> Self {
-        Self {
+    /// For so many disks, of which the smallest has this radius \[m\].
+    pub fn new(smallest_radius: f64, disks: usize) -> Self {
+        let mut list = Self {
             smallest_radius,
             ..Self::default()
-        }
+        };
+        make_room(&mut list.outer, disks);
+        make_room(&mut list.scratch, disks);
+        make_room(&mut list.wall_scratch, disks);
+        list
     }
 
     /// Replaces `pairs` by all pairs whose gap is less than the margin; closed contacts keep their memory.
@@ -140,7 +144,7 @@ mod tests {
             let radii: Vec<f64> = (0..count).map(|_| 0.01 + 0.02 * uniform(&mut random)).collect();
             let margin = 0.003;
             let mut pairs = Vec::new();
-            NeighbourList::new(0.01).find_pairs(
+            NeighbourList::new(0.01, 100).find_pairs(
                 Cloud {
                     positions: &places,
                     radii: &radii,
@@ -170,7 +174,7 @@ mod tests {
             radii: &[0.01; 3],
             margin: 0.002,
         };
-        let mut list = NeighbourList::new(0.01);
+        let mut list = NeighbourList::new(0.01, 100);
         let mut pairs = Vec::new();
         list.find_pairs(cloud, &mut pairs);
         assert_eq!(pairs.len(), 2);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::dem::clone_in_place::clone_in_place;
+use crate::clone_in_place::clone_in_place;
 
 use super::contacts::{Pair, WallContact};
 

@@ -26,6 +26,8 @@ pub const SETTLED: &str = "initial.settled";
 const STEPS_OF_A_LOOK: f64 = 10.0;
 /// Kinetic energy over what falling by a radius would give at which the disks are at rest.
 const AT_REST: f64 = 1e-11;
+/// The same for hard disks, which fall through gaps of a thousandth of a radius anyway.
+const HARD_AT_REST: f64 = 1e-7;
 /// Time steps at most, and time steps times disks at most: some seconds of a core.
 const MOST_STEPS: f64 = 1e5;
 const MOST_DISK_STEPS: f64 = 1e8;
@@ -58,7 +60,7 @@ pub fn soft<N: NormalForce>(disks: Vec<Disk>, normal: N, values: &Values) -> Res
     if !is_wanted(values) {
         return Ok(Settled { disks, warning: None });
     }
-    relaxed(disks, normal, values)
+    relaxed(disks, normal, AT_REST, values)
 }
 
 /// `disks` settled on a base at height zero with gaps between them: soft disks that are larger by more than they overlap.
@@ -85,7 +87,7 @@ pub fn hard(disks: Vec<Disk>, values: &Values) -> Result<Settled> {
     };
     let larger = 1.0 + 3.0 * START_GAP;
     let inflated = disks.iter().map(|disk| scaled(disk, larger)).collect();
-    let mut settled = relaxed(inflated, normal, values)?;
+    let mut settled = relaxed(inflated, normal, HARD_AT_REST, values)?;
     for (place, disk) in settled.disks.iter_mut().zip(&disks) {
         place.radius = disk.radius;
     }
@@ -117,7 +119,7 @@ fn gaps_are_open(disks: &[Disk], walls: &[Wall]) -> bool {
     })
 }
 
-fn relaxed<N: NormalForce>(disks: Vec<Disk>, normal: N, values: &Values) -> Result<Settled> {
+fn relaxed<N: NormalForce>(disks: Vec<Disk>, normal: N, at_rest: f64, values: &Values) -> Result<Settled> {
     let (gravity, masses) = (values.real("gravity"), initial_packing::masses(&disks, values));
     let fall: f64 = disks
         .iter()
@@ -152,7 +154,7 @@ fn relaxed<N: NormalForce>(disks: Vec<Disk>, normal: N, values: &Values) -> Resu
             .map_err(|breakdown| too_soft(&breakdown))?;
         let now = engine.kinetic_energy();
         if now < before {
-            is_at_rest = before < AT_REST * fall;
+            is_at_rest = before < at_rest * fall;
             engine.set_motion(|disks| disks.velocity.fill(0.0));
         }
         before = if now < before { 0.0 } else { now };

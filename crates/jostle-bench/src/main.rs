@@ -3,6 +3,7 @@
 //! Exit codes: 0 done; 2 an argument is wrong and nothing was run; 1 a run or a file failed on the way.
 
 mod csv_file;
+mod nearest;
 mod report;
 mod stability;
 

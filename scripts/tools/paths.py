@@ -14,5 +14,6 @@ WORK_PRECISION, WORK_PRECISION_PAGE = GENERATED / "report", GENERATED / "report.
 STABILITY, STABILITY_PAGE = GENERATED / "stability", GENERATED / "stability.md"
 BINARIES, BINARIES_PAGE = GENERATED / "binaries", GENERATED / "binaries.md"
 INSTRUCTION_COUNTS = GENERATED / "instruction_counts"
+README_PICTURE = ROOT / "docs" / "packing.png"
 MODEL_DESCRIPTIONS = ROOT / "modelDescription"
 NOTICES = ROOT / "LICENSE-THIRD-PARTY.txt"

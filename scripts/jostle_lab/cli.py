@@ -7,7 +7,7 @@ import typer
 from jostle_lab.demos.packing.command import demo, draw, exchanges
 from jostle_lab.demos.ratchet.command import ratchet_demo
 from jostle_lab.demos.torque.command import torque_demo
-from jostle_lab.errors import LabError
+from jostle_lab.errors import LabError, describe_os_error
 from jostle_lab.loudspeaker.command import loudspeaker
 from jostle_lab.runs.command import sweep
 
@@ -32,12 +32,15 @@ def application(help_text: str, *commands: Callable[..., None]) -> typer.Typer:
 
 
 def call(app: typer.Typer) -> None:
-    """Run it: what the user can put right is reported in one line, without a traceback."""
+    """Run it: what the user can put right is reported without a traceback. A file or folder that fails ends with 1."""
     try:
         app()
     except LabError as error:
         typer.echo(f"error: {error}", err=True)
         raise SystemExit(2) from None
+    except OSError as error:
+        typer.echo(f"error: {describe_os_error(error)}", err=True)
+        raise SystemExit(1) from None
 
 
 def main() -> None:

@@ -15,8 +15,10 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from jostle_lab.coupling.master import Coupling, Exchange
+from jostle_lab.coupling.exchange import Exchange
+from jostle_lab.coupling.master import Coupling
 from jostle_lab.errors import LabError, require
+from jostle_lab.files import replace_text
 from jostle_lab.fmu.grains import Grains
 from jostle_lab.loudspeaker.model import Loudspeaker
 from jostle_lab.protocol.intervals import Interval, Protocol
@@ -134,7 +136,7 @@ class PackingRun:
             rows = np.concatenate(blocks)
             names = ["amplitude", "time", *(f"{column}_{i}" for i in range(1, rows.shape[1] - 1))]
             pl.DataFrame(rows, schema=names).write_csv(self.folder / f"{file}.csv")
-        (self.folder / UNFINISHED).write_text(json.dumps(self._summary(), indent=2) + "\n")
+        replace_text(self.folder / UNFINISHED, json.dumps(self._summary(), indent=2) + "\n")
 
     def _summary(self) -> dict[str, Any]:
         costs = {"loudspeaker": self.coupling.loudspeaker_cost, "sensors and analysis": self.sensor_cost}

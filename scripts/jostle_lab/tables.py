@@ -20,8 +20,13 @@ Row = dict[str, Any]
 def write_table(path: Path, rows: Sequence[Mapping[str, Any]], columns: Sequence[str] | None = None) -> None:
     """Write rows with these columns, those of the first row unless given."""
     names = list(columns if columns is not None else rows[0])
+    write_frame(path, pl.DataFrame({name: [row[name] for row in rows] for name in names}, strict=False))
+
+
+def write_frame(path: Path, frame: pl.DataFrame) -> None:
+    """Write a table of polars."""
     with _named(path):
-        pl.DataFrame({name: [row[name] for row in rows] for name in names}, strict=False).write_csv(path)
+        frame.write_csv(path)
 
 
 def read_table(path: Path) -> pl.DataFrame:

@@ -7,10 +7,12 @@ from pathlib import Path
 
 import pytest
 from conftest import PROGRAM, ROOT
+from matplotlib.figure import Figure
 
 from jostle_lab.demos.packing.command import _seeds
 from jostle_lab.errors import LabError, describe_os_error, did_you_mean
 from jostle_lab.options import parameters
+from jostle_lab.plots.style import save
 from jostle_lab.programs import completed, output_of
 from jostle_lab.tables import parse_csv, read_table, read_text_rows, write_table
 
@@ -70,6 +72,11 @@ def test_full_disks_and_wrong_tables_name_the_file(tmp_path: Path) -> None:
         write_table(Path("/dev/full"), [{"a": 1}] * 100_000)
     assert describe_os_error(full.value).startswith("/dev/full: ")
     assert describe_os_error(full.value).endswith("Make room, or name a folder on another disk.")
+    picture = tmp_path / "picture.png"
+    picture.symlink_to("/dev/full")
+    with pytest.raises(OSError, match="No space left") as full:
+        save(Figure(), picture)
+    assert full.value.filename == str(picture)
     denied = PermissionError(13, "Permission denied", "results")
     assert describe_os_error(denied) == "results: Permission denied. Name a place that you may write to."
     (tmp_path / "empty.csv").touch()

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
-from jostle_lab.plots.style import SENSE, WIDTH, house_style
+from jostle_lab.plots.style import SENSE, WIDTH, house_style, save
 from jostle_lab.protocol.results import Results
 from jostle_lab.sensors.spectral_amplitude import spectral_amplitude
 from jostle_lab.statistics.rotation import RPM, nearest_neighbours_regression
@@ -30,7 +30,7 @@ def draw(name: str, results: Results) -> Path:
     """Draw one of `PICTURES`; return its path."""
     path = results.folder / name
     with house_style():
-        PICTURES[name](results).savefig(path)
+        save(PICTURES[name](results), path)
     return path
 
 

@@ -29,12 +29,14 @@ def ratchet_demo(
     if low == high:
         raise LabError(f"--low = {low:g} and --high = {high:g} are one frequency, which shows no reversal. Name two.")
     path = locate.fmu("ratchet.fmu", "ratchet", fmu)
+    folder = results / "ratchet-demo"
+    folder.mkdir(parents=True, exist_ok=True)  # before the work, which would be lost
     frequencies = tuple(low + (high - low) * i / (steps - 1) for i in range(steps))
     with house_style():
         product = make(path, Plan(gamma, frequencies, seconds, seed), progress)
         command = f"jostle-lab ratchet-demo --gamma {gamma:g} --low {low:g} --high {high:g} --steps {steps}"
         command += f" --seconds {seconds:g} --seed {seed}"
-        paths = write(product, results / "ratchet-demo", command, f"FMU binary {fingerprint(path)}")
+        paths = write(product, folder, command, f"FMU binary {fingerprint(path)}")
     for statement in product.statements:
         typer.echo(f"{statement.printed}: {statement.verdict}\n  {statement.found}")
     for written in paths:

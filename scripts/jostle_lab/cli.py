@@ -41,6 +41,12 @@ def call(app: typer.Typer) -> None:
     except OSError as error:
         typer.echo(f"error: {describe_os_error(error)}", err=True)
         raise SystemExit(1) from None
+    except Exception as error:
+        # Polars is not imported to ask for its errors.
+        if not type(error).__module__.startswith("polars"):
+            raise
+        typer.echo(f"error: a table is not as it should be: {error}. Make the results again.", err=True)
+        raise SystemExit(2) from None
 
 
 def main() -> None:

@@ -39,7 +39,7 @@ def make(fmu: Path | None, out: Path, progress: bool = False) -> None:
         weakest = min(row["gamma_true"] for row in Results(Path(folder)).amplitudes_of(1))
         if weakest > GAMMA_DRAWN:
             raise LabError(f"Gamma is {weakest:.2f} at the last of {amplitudes}: the demo may draw a later one.")
-        Image.open(Path(folder) / FIRST_PICTURE).convert("RGB").quantize(COLOURS).save(out, optimize=True)
+        Image.open(Path(folder) / FIRST_PICTURE).convert("RGB").quantize(COLOURS).save(out, "PNG", optimize=True)
 
 
 def difference(first: Path, second: Path) -> float:

@@ -8,13 +8,13 @@ import typer
 
 from jostle_lab import locate, options
 from jostle_lab.errors import LabError
-from jostle_lab.runs.grid import make_grid, read_grid
+from jostle_lab.runs.grid import ENGINES, make_grid, read_grid
 from jostle_lab.runs.limits import refuse_what_no_run_takes
 
 
 def sweep(
     file: Annotated[Path | None, typer.Argument(help="Grid in TOML; see below. Options go over what it says.")] = None,
-    scene: Annotated[str | None, typer.Option(help="Scene, such as ratchet.")] = None,
+    scene: Annotated[str | None, typer.Option(help=f"Scene: {', '.join(ENGINES)}.")] = None,
     engine: Annotated[str | None, typer.Option(help="Engine, if not the scene's first.")] = None,
     drive: Annotated[str | None, typer.Option(help="What moves the base, if not a sine.")] = None,
     seconds: Annotated[float | None, typer.Option(help="Simulated seconds of each run.")] = None,

@@ -87,6 +87,17 @@ def test_full_disks_and_wrong_tables_name_the_file(tmp_path: Path) -> None:
         parse_csv("a,b\n1,words\n")
 
 
+def test_a_table_without_its_columns_is_no_traceback(tmp_path: Path) -> None:
+    packing = tmp_path / "packings/seed-0001"
+    packing.mkdir(parents=True)
+    (tmp_path / "run.json").write_text('{"setup": {}}')
+    (packing / "packing.json").write_text('{"seed": 1}')
+    (packing / "amplitudes.csv").write_text("a,b\n1,2\n")
+    done = run("jostle_lab", "draw", "--results", tmp_path)
+    assert (done.returncode, "Traceback" in done.stderr) == (2, False), done.stderr
+    assert done.stderr.startswith("error: a table is not as it should be: "), done.stderr
+
+
 def test_the_nearest_name_is_proposed() -> None:
     known = ("contact.friction", "contact.normal_stiffness", "drive.frequency", "seed")
     assert did_you_mean("contact.frictoin", known) == " Did you mean contact.friction?"

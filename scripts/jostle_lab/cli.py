@@ -1,6 +1,11 @@
 """Command line of the laboratory: `jostle-lab`, or `python -m jostle_lab`. Thin: argument in, library call out."""
 
+import ast
+import sys
 from collections.abc import Callable
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
 
 import typer
 
@@ -29,6 +34,29 @@ def application(help_text: str, *commands: Callable[..., None]) -> typer.Typer:
     for command in commands:
         app.command()(command)
     return app
+
+
+def lazily(place: str) -> Callable[..., None]:
+    """The function `module:name`, imported only if its command is called; else what the list of commands needs."""
+    module, _, name = place.partition(":")
+    if sys.argv[1:2] == [name.replace("_", "-")]:
+        found: Callable[..., None] = getattr(import_module(module), name)
+        return found
+
+    def listed() -> None:
+        pass
+
+    listed.__name__, listed.__doc__ = name, _docstring(module, name)
+    return listed
+
+
+def _docstring(module: str, name: str) -> str:
+    """That of a function, read from its source."""
+    spec = find_spec(module)
+    if spec is None or spec.origin is None:
+        raise ImportError(f"There is no module {module}.")
+    functions = [node for node in ast.parse(Path(spec.origin).read_text()).body if isinstance(node, ast.FunctionDef)]
+    return next(ast.get_docstring(node) or "" for node in functions if node.name == name)
 
 
 def call(app: typer.Typer) -> None:

@@ -2,10 +2,9 @@
 
 if __name__ == "__main__":
     try:
-        from jostle_lab.cli import application, call
-        from studies.figures import figure
-        from studies.ratchet.page import ratchet_page
+        from jostle_lab.cli import application, call, lazily
 
-        call(application("Figures of both papers, computed anew.", figure, ratchet_page))
+        commands = ("studies.figures:figure", "studies.ratchet.page:ratchet_page")
+        call(application("Figures of both papers, computed anew.", *map(lazily, commands)))
     except KeyboardInterrupt:
         raise SystemExit(130) from None

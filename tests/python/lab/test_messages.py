@@ -136,19 +136,33 @@ def test_the_torque_demo_asks_for_both_versions_of_fmi(tmp_path: Path) -> None:
     assert not (tmp_path / "results").exists()
 
 
-def test_help_waits_for_nothing_heavy() -> None:
+@pytest.mark.parametrize(
+    ("package", "command", "what"),
+    [
+        ("jostle_lab", "ratchet-demo", "Hold Gamma of a shaken ratchet by feedback"),
+        ("studies", "ratchet-page", "Write docs/generated/ratchet.md"),
+        ("tools", "import-circles", "Look for Rust files that import each other"),
+    ],
+)
+def test_help_lists_the_commands_and_waits_for_nothing_heavy(package: str, command: str, what: str) -> None:
     program = f"""
-import sys
-from jostle_lab import cli
-sys.argv = ["jostle-lab", "--help"]
+import runpy, sys
+sys.argv = [{package!r}, "--help"]
 try:
-    cli.main()
+    runpy.run_module({package!r}, run_name="__main__")
 finally:
     print("loaded:", sorted(set({HEAVY!r}) & set(sys.modules)))
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
-    assert "ratchet-demo" in done.stdout
+    assert command in done.stdout and what in done.stdout, done.stderr
     assert done.stdout.splitlines()[-1] == "loaded: []"
+
+
+def test_a_command_that_is_imported_late_has_its_options() -> None:
+    for words, option in ((["tools", "notices"], "--command-line"), (["studies", "ratchet-page"], "--compute")):
+        done = run(*words, "--help")
+        assert option in done.stdout, done.stderr
+    assert run("tools", "notcies").returncode == 2
 
 
 @pytest.mark.parametrize("package", ["jostle_lab", "studies", "tools"])

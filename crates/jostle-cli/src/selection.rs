@@ -55,7 +55,7 @@ pub fn list() -> String {
         rows.push(vec![format!("  {scene}"), one.engine.into(), one.drive.into()]);
     }
     format!(
-        "What there is; of an engine or a drive that is not named the first:\n{}",
+        "Scenes with their engines and drives; the first of each is the default (for run the drive sine):\n{}",
         text::table(&rows)
     )
 }

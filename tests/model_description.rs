@@ -39,6 +39,20 @@ fn committed_model_descriptions_are_those_that_the_scenes_generate() {
     }
 }
 
+/// The papers take different values: whoever compares two scenes must be told.
+#[test]
+fn start_values_of_gravity_are_those_that_its_description_states() {
+    for model in MODELS {
+        let component = fmus::component(model, 3);
+        let table = component.table();
+        let gravity = &table.variables()[table.position("gravity").unwrap()];
+        let (scene, start) = (component.info().name, gravity.start().to_string());
+        let mut parts = gravity.description.split([',', ';']);
+        let part = parts.find(|part| part.contains(scene)).unwrap();
+        assert!(part.split_whitespace().any(|word| word == start), "{scene}: {start}");
+    }
+}
+
 /// Every name that a file of an FMU mentions is a variable of that FMU, with arrays too.
 #[test]
 fn terminals_name_variables_that_exist() {

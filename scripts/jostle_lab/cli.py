@@ -1,13 +1,18 @@
 """Command line of the laboratory: `jostle-lab`, or `python -m jostle_lab`. Thin: argument in, library call out."""
 
+import ast
+import sys
 from collections.abc import Callable
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
 
 import typer
 
 from jostle_lab.demos.packing.command import demo, draw, exchanges
 from jostle_lab.demos.ratchet.command import ratchet_demo
 from jostle_lab.demos.torque.command import torque_demo
-from jostle_lab.errors import LabError
+from jostle_lab.errors import LabError, describe_os_error
 from jostle_lab.loudspeaker.command import loudspeaker
 from jostle_lab.runs.command import sweep
 
@@ -31,12 +36,44 @@ def application(help_text: str, *commands: Callable[..., None]) -> typer.Typer:
     return app
 
 
+def lazily(place: str) -> Callable[..., None]:
+    """The function `module:name`, imported only if its command is called; else what the list of commands needs."""
+    module, _, name = place.partition(":")
+    if sys.argv[1:2] == [name.replace("_", "-")]:
+        found: Callable[..., None] = getattr(import_module(module), name)
+        return found
+
+    def listed() -> None:
+        pass
+
+    listed.__name__, listed.__doc__ = name, _docstring(module, name)
+    return listed
+
+
+def _docstring(module: str, name: str) -> str:
+    """That of a function, read from its source."""
+    spec = find_spec(module)
+    if spec is None or spec.origin is None:
+        raise ImportError(f"There is no module {module}.")
+    functions = [node for node in ast.parse(Path(spec.origin).read_text()).body if isinstance(node, ast.FunctionDef)]
+    return next(ast.get_docstring(node) or "" for node in functions if node.name == name)
+
+
 def call(app: typer.Typer) -> None:
-    """Run it: what the user can put right is reported in one line, without a traceback."""
+    """Run it: what the user can put right is reported without a traceback. A file or folder that fails ends with 1."""
     try:
         app()
     except LabError as error:
         typer.echo(f"error: {error}", err=True)
+        raise SystemExit(2) from None
+    except OSError as error:
+        typer.echo(f"error: {describe_os_error(error)}", err=True)
+        raise SystemExit(1) from None
+    except Exception as error:
+        # Polars is not imported to ask for its errors.
+        if not type(error).__module__.startswith("polars"):
+            raise
+        typer.echo(f"error: a table is not as it should be: {error}. Make the results again.", err=True)
         raise SystemExit(2) from None
 
 

@@ -27,9 +27,21 @@ SetOption = Annotated[
 ]
 
 
-def parameters(assignments: list[str] | None) -> tuple[tuple[str, float], ...]:
-    """Names and numbers of `--set` options."""
-    return tuple(assignment("--set", text, "--set contact.friction=0.2") for text in assignments or [])
+def parameters(assignments: list[str] | None, seed: str = "") -> tuple[tuple[str, float], ...]:
+    """Names and numbers of `--set` options, each name once; not `seed`, if an option called `seed` decides it."""
+    found = [assignment("--set", text, "--set contact.friction=0.2") for text in assignments or []]
+    names = once("--set", [name for name, _ in found])
+    if seed and "seed" in names:
+        raise LabError(f"--set seed is not taken here, since {seed} says which seeds there are. Use {seed}.")
+    return tuple(found)
+
+
+def once(option: str, names: list[str]) -> list[str]:
+    """The names; raises LabError if one is there twice, since only one of its values would count."""
+    twice = [name for number, name in enumerate(names) if name in names[:number]]
+    if twice:
+        raise LabError(f"{option} {twice[0]} is given more than once. Leave one of them out.")
+    return names
 
 
 def assignment(option: str, text: str, example: str) -> tuple[str, float]:

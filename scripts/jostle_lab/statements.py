@@ -8,6 +8,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from jostle_lab.plots.style import save
 from jostle_lab.tables import write_table
 
 
@@ -55,7 +56,7 @@ def write(product: Product, folder: Path, command: str, footer: str) -> list[Pat
     folder.mkdir(parents=True, exist_ok=True)
     data, picture, page = folder / "data.csv", folder / "figure.png", folder / "statements.md"
     write_table(data, product.rows)
-    product.picture.savefig(picture)
+    save(product.picture, picture)
     page.write_text(_page(product, command, footer))
     return [data, picture, page]
 

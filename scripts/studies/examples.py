@@ -3,7 +3,8 @@
 import time
 from pathlib import Path
 
-from jostle_lab.runs.laboratory import Laboratory, output_of
+from jostle_lab.programs import output_of
+from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.tables import Table, parse_csv
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from jostle_lab import locate, options
-from jostle_lab.errors import LabError
+from jostle_lab.errors import LabError, did_you_mean
 from jostle_lab.plots.style import house_style
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Verdict, write
@@ -73,6 +73,8 @@ def maker(number: str) -> Maker:
 
 def make_figure(number: str, laboratory: Laboratory, results: Path, quick: bool, seeds: int | None) -> list[Path]:
     """Make a figure and write its folder; return the paths."""
+    folder = results / f"figure-{number}"
+    folder.mkdir(parents=True, exist_ok=True)  # before the work, which would be lost
     command = f"python -m studies figure {number}" + (" --quick" if quick else "")
     command += f" --seeds {seeds}" if seeds is not None else ""
     begun, laboratory.spent = time.perf_counter(), 0.0
@@ -82,7 +84,7 @@ def make_figure(number: str, laboratory: Laboratory, results: Path, quick: bool,
             f"program {laboratory.version}, {laboratory.spent:.0f} s of one processor in all; this call "
             f"{time.perf_counter() - begun:.0f} s with {laboratory.processes} processes"
         )
-        paths = write(product, results / f"figure-{number}", command, footer)
+        paths = write(product, folder, command, footer)
     counts = {v: sum(s.verdict is v for s in product.statements) for v in Verdict}
     typer.echo(f"figure {number}: " + ", ".join(f"{count} {v}" for v, count in counts.items() if count))
     return paths
@@ -114,7 +116,10 @@ def figure(
     chosen = [number for name in numbers for number in GROUPS.get(name, (name,))]
     unknown = [number for number in chosen if number not in NUMBERS]
     if unknown:
-        raise LabError(f"No figure {', '.join(unknown)}. There are {', '.join(NUMBERS)}; all of the thesis; and F.")
+        near = did_you_mean(unknown[0], (*NUMBERS, *GROUPS))
+        raise LabError(
+            f"No figure {', '.join(unknown)}.{near} There are {', '.join(NUMBERS)}; all of the thesis; and F."
+        )
     laboratory = Laboratory(locate.program(program), results / "runs", processes, progress, scheduler)
     failures = []
     for number in chosen:

@@ -1,25 +1,22 @@
-"""`python -m tools`."""
+"""`python -m tools`. Ctrl-C ends it without a traceback, as early as it may come."""
 
-from jostle_lab.cli import application, call
-from tools.import_circles import import_circles
-from tools.instruction_counts import instruction_counts
-from tools.notices import notices
-from tools.peers import peers
-from tools.real_time_page import real_time
-from tools.release.command import binaries, verify
-from tools.stability_page import stability
-from tools.work_precision.work_precision_cli import work_precision
+COMMANDS = (
+    "tools.work_precision.work_precision_cli:work_precision",
+    "tools.stability_page:stability",
+    "tools.real_time_page:real_time",
+    "tools.instruction_counts:instruction_counts",
+    "tools.import_circles:import_circles",
+    "tools.peers:peers",
+    "tools.release.command:binaries",
+    "tools.release.command:verify",
+    "tools.notices:notices",
+    "tools.readme_picture:readme_picture",
+)
 
 if __name__ == "__main__":
-    commands = (
-        work_precision,
-        stability,
-        real_time,
-        instruction_counts,
-        import_circles,
-        peers,
-        binaries,
-        verify,
-        notices,
-    )
-    call(application("Tools of the project itself.", *commands))
+    try:
+        from jostle_lab.cli import application, call, lazily
+
+        call(application("Tools of the project itself.", *map(lazily, COMMANDS)))
+    except KeyboardInterrupt:
+        raise SystemExit(130) from None

@@ -7,7 +7,6 @@ load. The pinned counts (`paths.INSTRUCTION_COUNTS`) hold for the profile `shipp
 """
 
 import re
-import subprocess
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ import typer
 
 from jostle_lab import locate, options
 from jostle_lab.errors import LabError
+from jostle_lab.programs import completed
 from jostle_lab.tables import markdown_table, read_text_rows, write_table
 from tools.paths import INSTRUCTION_COUNTS, MODEL_DESCRIPTIONS
 
@@ -82,7 +82,7 @@ def instructions(program: Path, workload: Workload) -> float:
         counts = []
         for seconds in (workload.short, workload.long):
             command = workload.command(program, seconds, Path(folder) / "run")
-            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            done = completed(command)
             found = re.search(r"Collected : (\d+)", done.stderr)
             if done.returncode != 0 or found is None:
                 raise LabError(f"{workload.name}: {done.stderr.strip()[-400:]} Is valgrind installed?")

@@ -3,7 +3,6 @@
 import itertools
 import json
 import re
-import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Annotated
 import typer
 
 from jostle_lab.errors import LabError
+from jostle_lab.programs import completed
 from tools.paths import NOTICES, ROOT
 
 FILE = NOTICES.name
@@ -142,7 +142,7 @@ def _tree(root: Path, packages: Sequence[str], platform: str = "all") -> str:
 
 def _cargo(root: Path, *arguments: str) -> str:
     command = ["cargo", *arguments, "--locked", "--offline"]
-    done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
+    done = completed(command, root)
     if done.returncode != 0:
         raise LabError(f"cargo {arguments[0]} failed: {done.stderr.strip()[-400:]}. Try: cargo fetch --locked")
     return done.stdout

@@ -7,7 +7,6 @@ any x86-64, theirs with `-O3 -march=native -ffast-math` for this machine.
 
 import re
 import statistics
-import subprocess
 import tempfile
 from itertools import product
 from pathlib import Path
@@ -16,6 +15,7 @@ from typing import Annotated, NamedTuple
 import typer
 
 from jostle_lab.errors import LabError
+from jostle_lab.programs import completed
 from tools.paths import ROOT, TARGET
 
 EXAMPLE = "peer_molecular_dynamics"
@@ -98,7 +98,7 @@ def side_by_side(state: str, copies: int) -> str:
 
 
 def _run(arguments: list[str]) -> str:
-    done = subprocess.run(arguments, cwd=ROOT, capture_output=True, text=True, check=False)
+    done = completed(arguments, ROOT)
     if done.returncode != 0:
         raise LabError(f"{arguments[0]} failed: {done.stderr.strip()[-400:]}. Check that it is installed.")
     return done.stdout + done.stderr

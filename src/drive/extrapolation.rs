@@ -116,15 +116,16 @@ impl InputHistory {
     ///
     /// A first repetition of a sample bit by bit, although it has a rate, is a sample that is missing: what moves does not
     /// stay. It is left out, and the extrapolation goes on from those before. Where no rate is given the input may have stopped as
-    /// well: the extrapolation goes on as if the time since the last sample had not passed.
+    /// well, or be at a crest: if it was expected to move on by half of its last move, the extrapolation goes on as if the time
+    /// since the last sample had not passed.
     pub fn record(&mut self, sample: InputSample) {
         let last = self.samples().last().copied();
         if let Some(last) = last
             && sample.time > last.time
         {
             let repeated = !self.missed && sample.values == last.values;
-            let (has_rate, may_have_stopped) = (sample.values[1] != 0.0, !self.given[0] && self.was_moving());
-            self.missed = repeated && (has_rate || may_have_stopped);
+            let has_rate = sample.values[1] != 0.0;
+            self.missed = repeated && (has_rate || !self.given[0] && self.was_to_move_on(sample.time));
             self.lag = if self.missed && !has_rate {
                 sample.time - last.time
             } else {
@@ -148,9 +149,12 @@ impl InputHistory {
         self.push(sample);
     }
 
-    /// Whether the last two samples differ.
-    fn was_moving(&self) -> bool {
-        matches!(self.samples(), [.., before, last] if before.values != last.values)
+    /// Whether the input was expected to move on until `time` \[s\] by half at least of what it moved between the last samples.
+    fn was_to_move_on(&self, time: f64) -> bool {
+        let [.., before, last] = self.samples() else { return false };
+        let moved = (last.values[0] - before.values[0]).abs();
+        let expected = self.extrapolate(time, Degree::Automatic);
+        expected.is_some_and(|expected| (expected.at(time)[0] - last.values[0]).abs() > 0.5 * moved && moved > 0.0)
     }
 
     fn push(&mut self, sample: InputSample) {

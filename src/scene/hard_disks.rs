@@ -84,13 +84,16 @@ pub fn refused_step(
         Partner::Disk(other) => format!("disk {}", other + 1),
         wall_or_shell => partner(wall_or_shell).into(),
     };
+    let within = match stop.duration {
+        0.0 => "at one instant".into(),
+        duration => format!("within {duration:.1e} s"),
+    };
     Error::Step {
         model: scene,
         time: stop.time,
         what: format!(
-            "no headway: {} events in {:e} s, the last of disk {} with {partner}",
+            "no headway: {} events {within}, the last of disk {} with {partner}",
             stop.events,
-            stop.duration,
             stop.disk + 1
         ),
         remedy: remedy.into(),
@@ -213,5 +216,29 @@ impl EnergyRows<'_> {
                 change - counts.energy_input + counts.energy_lost
             }),
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::event_driven::NoHeadway;
+
+    #[test]
+    fn a_refusal_without_headway_reads_as_a_sentence() {
+        let message = |duration| {
+            let (time, events, disk) = (0.5, 100_000, 1);
+            let stop = NoHeadway {
+                time,
+                events,
+                duration,
+                disk,
+                partner: Partner::Disk(6),
+            };
+            refused_step("packing", EventDrivenStop::NoHeadway(stop), |_| "the base", "Wait.").to_string()
+        };
+        let end = "the last of disk 2 with disk 7. Wait.";
+        assert!(message(0.0).ends_with(&format!("100000 events at one instant, {end}")));
+        assert!(message(1.339878809708539e-7).ends_with(&format!("100000 events within 1.3e-7 s, {end}")));
     }
 }

@@ -7,6 +7,10 @@ use fmi_component::{ModelInfo, StructuralParameter, StructuralParameters};
 /// Name of the structural parameter of every scene.
 const DISKS: &str = "disks";
 
+/// Description of the parameter `gravity` of every scene: the papers take different values.
+pub const GRAVITY: &str =
+    "Gravity, downwards; at the start 9.8 m/s2 in packing, 9.81 in wedge and ratchet, 10 in three_disk";
+
 /// Static facts of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneInfo {

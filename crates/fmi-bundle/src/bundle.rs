@@ -24,6 +24,7 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 use crate::check::check_names;
 use crate::component::{Component, Notices};
 use crate::platform::platform;
+use crate::replay::{TOLERANCE, replay_archive};
 use crate::{documentation, model_description, reference, terminals};
 
 /// The library that exports the model `identifier`, in the first of `folders` that holds it.
@@ -41,18 +42,21 @@ pub fn find_library(identifier: &str, folders: &[&Path]) -> Result<PathBuf> {
         Error::file(
             Path::new(&name),
             format!("not found in {}", list.join(", ")),
-            "Build it: cargo build --release --workspace, or name the folder where it is.",
+            "Build it: cargo build --release --workspace; or put it there.",
         )
     })
 }
 
-/// Writes the FMU of `component` for `version` to `out`, with the binary `library`.
+/// Writes the FMU of `component` for `version` to `out`, with the binary `library`, which is loaded and run along the reference
+/// trajectory: a library of another model, or of other sources, is refused. [`pack`] takes any bytes.
 ///
 /// # Errors
-/// The library cannot be read or the FMU cannot be written. There is then no new file, and one that was there is as before.
+/// The library cannot be read, is not that of `component`, or the FMU cannot be written. There is then no new file, and one
+/// that was there is as before.
 pub fn write(component: &Component, version: Version, library: &Path, out: &Path) -> Result<()> {
     let binary = fs::read(library).map_err(|error| cannot_read(library, &error))?;
     let bytes = pack(component, version, &binary)?;
+    check_library(library, &bytes)?;
     if fs::metadata(out).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
         return Err(Error::file(out, "it is a device, no file", "Give the name of a file."));
     }
@@ -62,20 +66,40 @@ pub fn write(component: &Component, version: Version, library: &Path, out: &Path
         .and_then(|()| fs::rename(&partial, out))
         .map_err(|error| {
             let _ = fs::remove_file(&partial);
-            cannot_write(out, bytes.len(), &error)
+            cannot_write(out, &error)
         })
+}
+
+/// Refuses the library in an FMU if it does not compute what this program does.
+fn check_library(library: &Path, fmu: &[u8]) -> Result<()> {
+    const BUILD_BOTH: &str =
+        "Build the library and this program from the same sources: cargo build --release --workspace.";
+    let foreign = |what: String| Error::file(library, what, BUILD_BOTH);
+    let report = replay_archive(Cursor::new(fmu)).map_err(|error| match error {
+        Error::Call { what, .. } => foreign(what),
+        other => other,
+    })?;
+    let Some(report) = report.filter(|report| !report.passes()) else {
+        return Ok(());
+    };
+    let (name, time) = report.place.unwrap_or_default();
+    let largest = report.largest;
+    Err(foreign(format!(
+        "{name} at t = {time} s differs by {largest:.1e} of its size from what this program computes; allowed is {TOLERANCE:e}"
+    )))
 }
 
 fn cannot_read(library: &Path, error: &io::Error) -> Error {
     let remedy = match error.kind() {
         ErrorKind::NotFound => "Build it: cargo build --release --workspace, or name the file where it is.",
-        ErrorKind::PermissionDenied => "Allow to read it.",
+        ErrorKind::PermissionDenied => "Allow reading it.",
         _ => "Name the file of the library.",
     };
     Error::file(library, error, remedy)
 }
 
-fn cannot_write(out: &Path, length: usize, error: &io::Error) -> Error {
+/// Why a file cannot be written, and what to do about it.
+pub fn cannot_write(out: &Path, error: &io::Error) -> Error {
     let folder = match out.parent() {
         Some(parent) if parent != Path::new("") => parent.display().to_string(),
         _ => "the current folder".into(),
@@ -96,7 +120,7 @@ fn cannot_write(out: &Path, length: usize, error: &io::Error) -> Error {
             "Choose a folder on another.",
         ),
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => (
-            format!("no space left for {length} bytes in {folder} ({error})"),
+            format!("no space left in {folder} ({error})"),
             "Make room, or choose a folder on another disk.",
         ),
         _ => (error.to_string(), "Choose another file or folder."),
@@ -111,9 +135,9 @@ fn cannot_write(out: &Path, length: usize, error: &io::Error) -> Error {
 pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<u8>> {
     if component.arrays && version == Version::Two {
         return Err(Error::parameter(
-            "arrays",
-            "with FMI 2.0",
-            "FMI 3.0, since FMI 2.0 has no arrays",
+            "version of FMI",
+            "2.0",
+            "3.0 for array variables, which FMI 2.0 does not have",
             "Write it for FMI 3.0, or with scalar variables.",
         ));
     }
@@ -200,18 +224,18 @@ mod tests {
             ),
             (
                 ErrorKind::StorageFull,
-                "no space left for 7 bytes in some/where (no storage space). Make room",
+                "no space left in some/where (no storage space). Make room",
             ),
             (ErrorKind::IsADirectory, "it is a folder. Give the name of a file."),
             (ErrorKind::ReadOnlyFilesystem, "read-only"),
         ] {
-            let message = cannot_write(Path::new("some/where/a.fmu"), 7, &kind.into()).to_string();
+            let message = cannot_write(Path::new("some/where/a.fmu"), &kind.into()).to_string();
             assert!(
                 message.starts_with("some/where/a.fmu: ") && message.contains(what),
                 "{message}"
             );
         }
-        let message = cannot_write(Path::new("a.fmu"), 7, &ErrorKind::PermissionDenied.into()).to_string();
+        let message = cannot_write(Path::new("a.fmu"), &ErrorKind::PermissionDenied.into()).to_string();
         assert!(message.contains("to write to the current folder"), "{message}");
     }
 }

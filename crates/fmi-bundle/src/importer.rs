@@ -20,6 +20,8 @@ type Opaque = *mut c_void;
 type Boolean = u8;
 /// `fmi3OK`.
 const OK: c_int = 0;
+/// Remedy for an FMU whose parts do not fit.
+pub const MAKE_ANEW: &str = "Write the FMU anew.";
 
 type Log = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
 /// `fmi3IntermediateUpdateCallback`, of which none is passed.
@@ -63,7 +65,8 @@ impl Library {
     /// Loads the bytes of a shared library.
     ///
     /// # Errors
-    /// It cannot be written to the folder for temporary files, or is no library for this platform.
+    /// It cannot be written to the folder for temporary files, or is no library for this platform. Here and below an
+    /// [`Error::Call`] does not name the file that the bytes are from: the caller knows it.
     pub fn load(bytes: &[u8]) -> Result<Self> {
         static NUMBER: AtomicU32 = AtomicU32::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
@@ -73,7 +76,13 @@ impl Library {
         let mut loaded = Self { library: None, path };
         // SAFETY: loading runs the initialisers of the library: the user named this FMU to be run.
         let library = unsafe { libloading::Library::new(&loaded.path) };
-        let library = library.map_err(|error| Error::file(&loaded.path, error, "Is the FMU for this platform?"))?;
+        let unfit = |error| {
+            Error::call(
+                format!("its library is not loaded: {error}"),
+                "Is it for this platform?",
+            )
+        };
+        let library = library.map_err(unfit)?;
         loaded.library = Some(library);
         Ok(loaded)
     }
@@ -86,7 +95,7 @@ impl Library {
         let log = Box::new(Mutex::new(String::new()));
         let environment = std::ptr::from_ref(&*log).cast_mut().cast();
         let token =
-            CString::new(token).map_err(|_| Error::call("the token holds a zero byte", "Write the FMU anew."))?;
+            CString::new(token).map_err(|_| Error::call("its instantiation token holds a zero byte", MAKE_ANEW))?;
         let make = self.symbol::<Instantiate>(c"fmi3InstantiateCoSimulation")?;
         // SAFETY: the signature is that of the standard; the strings outlive the call and the log the instance.
         let pointer = unsafe {
@@ -119,7 +128,7 @@ impl Library {
     fn symbol<T: Copy>(&self, name: &CStr) -> Result<T> {
         let missing = || {
             Error::call(
-                format!("the library has no function {}", name.to_string_lossy()),
+                format!("its library has no function {}", name.to_string_lossy()),
                 "Name an FMU that this crate wrote.",
             )
         };
@@ -190,10 +199,8 @@ impl Instance {
         if (reached - end).abs() <= 1e-9 * step {
             return Ok(());
         }
-        Err(Error::call(
-            format!("the step to {end} s ended at {reached} s"),
-            "Report this.",
-        ))
+        let what = format!("its library ended the step to {end} s at {reached} s");
+        Err(Error::call(what, MAKE_ANEW))
     }
 
     fn check(&self, function: &str, status: c_int) -> Result<()> {
@@ -204,8 +211,12 @@ impl Instance {
     }
 
     fn refused(&self, function: &str) -> Error {
-        let messages = self.log.lock().map(|messages| messages.clone()).unwrap_or_default();
-        Error::call(format!("{function} was refused: {messages}"), "Report this.")
+        let message = self.log.lock().map(|message| message.clone()).unwrap_or_default();
+        let said = match message.trim_end_matches('.') {
+            "" => "without a message",
+            said => said,
+        };
+        Error::call(format!("its library refuses {function}: {said}"), MAKE_ANEW)
     }
 }
 

@@ -22,7 +22,7 @@ mod replay;
 pub mod terminals;
 mod xml;
 
-pub use bundle::{find_library, pack, write};
+pub use bundle::{cannot_write, find_library, pack, write};
 pub use component::{Component, Notices, nominal_amplitude};
 pub use fmi_component::Version;
 pub use replay::{ReplayReport, TOLERANCE, replay};

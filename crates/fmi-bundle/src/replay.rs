@@ -12,13 +12,13 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Seek};
 use std::path::Path;
 
 use fmi_component::{Error, Result};
 use zip::ZipArchive;
 
-use crate::importer::Library;
+use crate::importer::{Instance, Library, MAKE_ANEW};
 use crate::platform::platform;
 use crate::reference;
 use description::{Column, Description};
@@ -28,9 +28,6 @@ use trajectory::Trajectory;
 ///
 /// Reference trajectories are short, so that a slip in the last place grows to far less within one.
 pub const TOLERANCE: f64 = 1e-6;
-
-/// Remedy for an FMU whose parts do not fit.
-const MAKE_ANEW: &str = "Write the FMU anew.";
 
 /// What a replay saw.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,9 +56,23 @@ impl ReplayReport {
 /// # Errors
 /// The file is no FMU of this crate, has no library for this platform, or the library refuses a call.
 pub fn replay(fmu: &Path) -> Result<ReplayReport> {
-    let refused = |what: String| Error::file(fmu, what, MAKE_ANEW);
     let file = File::open(fmu).map_err(|error| Error::file(fmu, error, "Name an FMU."))?;
-    let mut archive = ZipArchive::new(file).map_err(|error| refused(error.to_string()))?;
+    let report = replay_archive(file).and_then(|report| {
+        report.ok_or_else(|| Error::call("it holds no trajectory: the model refuses its start values", MAKE_ANEW))
+    });
+    report.map_err(|error| match error {
+        Error::Call { what, remedy } => Error::file(fmu, what, remedy),
+        other => other,
+    })
+}
+
+/// As [`replay()`], of an FMU that need not be a file; none where the model refuses its start values.
+///
+/// # Errors
+/// As [`replay()`]. [`Error::Call`] is about the FMU and does not name it.
+pub fn replay_archive(fmu: impl Read + Seek) -> Result<Option<ReplayReport>> {
+    let refused = |what: String| Error::call(what, MAKE_ANEW);
+    let mut archive = ZipArchive::new(fmu).map_err(|error| refused(error.to_string()))?;
     let mut paths = archive.file_names().flatten();
     let table = paths.find(|path| reference::is_path(path)).map(Cow::into_owned);
     drop(paths);
@@ -83,12 +94,15 @@ pub fn replay(fmu: &Path) -> Result<ReplayReport> {
     let unknown = |name: &str| refused(format!("{table} names {name}, which modelDescription.xml does not"));
     let column = |name: &String| description.column(name).ok_or_else(|| unknown(name));
     let columns = trajectory.names[1..].iter().map(column).collect::<Result<Vec<_>>>()?;
-    compare(&description.token, &trajectory, &columns, &binary)
+    let instance = Library::load(&binary)?.instantiate(&description.token)?;
+    if trajectory.rows.is_empty() {
+        return Ok(None);
+    }
+    compare(instance, &trajectory, &columns).map(Some)
 }
 
-fn compare(token: &str, table: &Trajectory, columns: &[Column], binary: &[u8]) -> Result<ReplayReport> {
+fn compare(mut instance: Instance, table: &Trajectory, columns: &[Column]) -> Result<ReplayReport> {
     let (inputs, outputs): (Vec<_>, Vec<_>) = (1..table.names.len()).partition(|index| columns[index - 1].input);
-    let mut instance = Library::load(binary)?.instantiate(token)?;
     instance.initialize(table.rows[0][0])?;
     let mut report = ReplayReport {
         rows: table.rows.len(),

@@ -8,6 +8,7 @@ use std::io::{Cursor, Read};
 use std::path::Path;
 
 use fmi_bundle::{Component, Version, find_library, model_description, pack, write};
+use fmi_component::{ModelInfo, ModelType};
 use support::{MODEL, component, folder, library};
 use zip::ZipArchive;
 
@@ -108,7 +109,10 @@ fn elements_become_one_array_where_arrays_are_wanted() {
     assert!(text.contains(r#"<Float64 name="body.position" valueReference="13" description="Position of each body.""#));
     assert!(text.contains(r#"<Dimension start="3"/>"#) && !text.contains("body.position["));
     let message = pack(&component, Version::Two, b"").unwrap_err().to_string();
-    assert!(message.contains("FMI 2.0 has no arrays"), "{message}");
+    assert!(
+        message.starts_with("version of FMI = 2.0 is not allowed: 3.0"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -153,5 +157,47 @@ fn an_fmu_that_cannot_be_written_leaves_no_file_and_says_why() {
         .map(|entry| entry.unwrap().file_name())
         .collect();
     assert_eq!(left, ["b.fmu"]);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// The file that is written first is a device without space.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_reported_as_such_and_leaves_nothing() {
+    let folder = folder("full");
+    std::os::unix::fs::symlink("/dev/full", folder.join("a.fmu.part")).unwrap();
+    let written = write(&component(), Version::Three, &library(), &folder.join("a.fmu"));
+    let message = written.unwrap_err().to_string();
+    assert!(
+        message.contains("no space left in") && message.contains("Make room"),
+        "{message}"
+    );
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 0);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_library_of_another_version_and_a_file_that_is_none_are_refused() {
+    let folder = folder("foreign");
+    let (out, text) = (folder.join("a.fmu"), folder.join("text.so"));
+    let other = ModelType {
+        info: || ModelInfo {
+            version: "0.0.0",
+            ..(MODEL.info)()
+        },
+        ..MODEL
+    };
+    let other = Component::new(&other, &[]).unwrap();
+    let refused = |component, library: &Path| write(component, Version::Three, library, &out).unwrap_err().to_string();
+    let message = refused(&other, &library());
+    assert!(message.starts_with(&library().display().to_string()), "{message}");
+    assert!(
+        message.contains("instantiation token") && message.contains("from the same sources"),
+        "{message}"
+    );
+    std::fs::write(&text, "no library").unwrap();
+    let message = refused(&component(), &text);
+    assert!(message.contains("text.so: its library is not loaded"), "{message}");
+    assert!(!out.exists());
     std::fs::remove_dir_all(&folder).unwrap();
 }

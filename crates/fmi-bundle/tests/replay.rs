@@ -4,7 +4,7 @@
 
 mod support;
 
-use fmi_bundle::{Component, Version, reference, replay, write};
+use fmi_bundle::{Component, Version, pack, reference, replay, write};
 use fmi_component::{ModelType, Value};
 use support::{MODEL, component, folder, library};
 
@@ -22,6 +22,12 @@ fn a_replay_is_equal_to_the_bit_in_every_form() {
     }
     std::fs::write(&fmu, "no archive").unwrap();
     assert!(replay(&fmu).unwrap_err().to_string().contains("oscillators.fmu"));
+    std::fs::write(&fmu, pack(&component, Version::Three, b"no library").unwrap()).unwrap();
+    let message = replay(&fmu).unwrap_err().to_string();
+    assert!(
+        message.contains("oscillators.fmu: its library is not loaded"),
+        "{message}"
+    );
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
@@ -40,7 +46,14 @@ fn a_library_that_computes_something_else_does_not_pass() {
         ..MODEL
     };
     let component = Component::new(&stiffer, &[]).unwrap();
-    write(&component, Version::Three, &library(), &fmu).unwrap();
+    let written = write(&component, Version::Three, &library(), &fmu);
+    let message = written.unwrap_err().to_string();
+    assert!(
+        message.contains("of its size from what this program computes") && !fmu.exists(),
+        "{message}"
+    );
+    let binary = std::fs::read(library()).unwrap();
+    std::fs::write(&fmu, pack(&component, Version::Three, &binary).unwrap()).unwrap();
     let report = replay(&fmu).unwrap();
     assert!(!report.passes() && report.differing > 100, "{report:?}");
     std::fs::remove_dir_all(&folder).unwrap();

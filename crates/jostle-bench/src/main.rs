@@ -5,6 +5,7 @@
 mod csv_file;
 mod machine;
 mod real_time;
+mod nearest;
 mod report;
 mod stability;
 

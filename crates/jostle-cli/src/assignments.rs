@@ -1,41 +1,72 @@
 //! `--set name=value`: text in, checked values of a simulation out.
 
-use jostle::scene::DynSimulation;
+use jostle::scene::{DynSimulation, Kind, Variable};
 use jostle::{Error, Result};
 
-/// Sets these parameters and inputs of a simulation that has not started; of several to one name the last counts.
+use crate::nearest::did_you_mean;
+
+/// Sets these parameters and inputs of a simulation that has not started.
 ///
 /// # Errors
-/// Text that is no assignment, a name that the scene has not or that cannot be set, a value out of range.
+/// Text that is no assignment, a name that the scene has not, that cannot be set or that comes twice, a value out of range.
 pub fn assign(simulation: &mut dyn DynSimulation, assignments: &[String]) -> Result<()> {
-    assignments.iter().try_for_each(|assignment| {
+    let pairs = split(assignments, "NAME=VALUE", "contact.friction=0.2")?;
+    pairs
+        .into_iter()
+        .try_for_each(|(name, text)| assign_one(simulation, name, text))
+}
+
+/// Name and text of each assignment.
+///
+/// # Errors
+/// Text that is not of the `form`, or two assignments to one name.
+pub fn split<'a>(assignments: &'a [String], form: &str, example: &str) -> Result<Vec<(&'a str, &'a str)>> {
+    let mut pairs: Vec<(&str, &str)> = Vec::new();
+    for assignment in assignments {
         let (name, text) = assignment.split_once('=').ok_or_else(|| {
-            let remedy = "Write it as in --set contact.friction=0.2.";
-            Error::parameter("--set", assignment, "NAME=VALUE", remedy)
+            let remedy = format!("Write it as in --set {example}.");
+            Error::parameter("--set", assignment, form, remedy)
         })?;
-        assign_one(simulation, name.trim(), text.trim())
-    })
+        let (name, text) = (name.trim(), text.trim());
+        if let Some((_, earlier)) = pairs.iter().find(|(known, _)| *known == name) {
+            let allowed = format!("one value for each name, and {name} = {earlier} is set before");
+            return Err(Error::parameter(
+                "--set",
+                assignment,
+                allowed,
+                "Leave one of the two out.",
+            ));
+        }
+        pairs.push((name, text));
+    }
+    Ok(pairs)
 }
 
 fn assign_one(simulation: &mut dyn DynSimulation, name: &str, text: &str) -> Result<()> {
-    let refused = |remedy: &str| {
-        Err(Error::parameter(
-            "--set",
-            name,
-            "a parameter or input of this scene",
-            remedy,
-        ))
-    };
+    let refused = |remedy: &str| Error::parameter("--set", name, "a parameter or input of this scene", remedy);
     let table = simulation.values().table();
     let Some(position) = table.position(name) else {
-        return refused("List the names with: jostle describe SCENE, with the same --drive.");
+        let error = refused("List the names with: jostle describe SCENE, with the same --drive.");
+        let settable = table.variables().iter().filter(|known| known.causality.is_settable());
+        return Err(did_you_mean(error, settable.map(|known| known.name.as_str())));
     };
     let variable = &table.variables()[position];
     if !variable.causality.is_settable() {
-        return refused("The scene computes it; set a parameter instead.");
+        return Err(refused("The scene computes it; set a parameter instead."));
     }
-    let value = variable.parse(text)?;
+    let value = variable
+        .parse(text)
+        .map_err(|error| did_you_mean(error, options(variable)))?;
     simulation.set_at(position, value)
+}
+
+/// Names of the options of an enumeration.
+fn options(variable: &Variable) -> impl Iterator<Item = &str> {
+    let options = match variable.kind {
+        Kind::Enumeration { options, .. } => options,
+        _ => &[],
+    };
+    options.iter().map(|(name, _)| *name)
 }
 
 #[cfg(test)]
@@ -52,9 +83,16 @@ mod tests {
     }
 
     #[test]
-    fn the_last_assignment_counts() {
-        let values = set(&["rate = 2.5", "seed=7", "rate=3"]).unwrap();
-        assert_eq!((values.real("rate"), values.integer("seed")), (3.0, 7));
+    fn spaces_around_name_and_value_do_not_count() {
+        let values = set(&["rate = 2.5", "seed=7"]).unwrap();
+        assert_eq!((values.real("rate"), values.integer("seed")), (2.5, 7));
+    }
+
+    #[test]
+    fn a_name_that_is_set_twice_is_refused_with_both_values() {
+        let message = set(&["rate=2", "seed=7", "rate = 3"]).unwrap_err().to_string();
+        assert!(message.starts_with("--set = rate = 3 is not allowed"), "{message}");
+        assert!(message.contains("rate = 2 is set before"), "{message}");
     }
 
     #[test]
@@ -67,7 +105,9 @@ mod tests {
     fn each_wrong_assignment_has_its_own_message() {
         let message_of = |text| set(&[text]).unwrap_err().to_string();
         assert!(message_of("rate").starts_with("--set = rate is not allowed: NAME=VALUE"));
-        assert!(message_of("rat=1").contains("a parameter or input"));
+        assert!(message_of("rat=1").contains("a parameter or input of this scene. Did you mean rate? List"));
+        assert!(!message_of("zzz=1").contains("Did you mean"));
+        assert!(message_of("sense=bakc").contains("Did you mean back? Give an option"));
         assert!(message_of("angle[1]=1").contains("The scene computes it"));
         assert!(message_of("rate=fast").starts_with("rate = fast is not allowed: a number"));
         assert!(message_of("seed=1.5").starts_with("seed = 1.5 is not allowed: a whole number"));

@@ -1,6 +1,7 @@
 //! Rows of text as a CSV file.
 
 use std::fs::File;
+use std::io;
 use std::path::Path;
 
 use crate::failure::Failure;
@@ -17,7 +18,7 @@ impl<'path> CsvFile<'path> {
     /// # Errors
     /// It cannot be made.
     pub fn create(path: &'path Path) -> Result<Self, Failure> {
-        let writer = csv::Writer::from_path(path).map_err(|error| Failure::file(path, error))?;
+        let writer = csv::Writer::from_path(path).map_err(|error| Failure::file(path, &of_csv(error)))?;
         Ok(Self { path, writer })
     }
 
@@ -28,7 +29,7 @@ impl<'path> CsvFile<'path> {
     pub fn write<T: AsRef<[u8]>>(&mut self, row: impl IntoIterator<Item = T>) -> Result<(), Failure> {
         self.writer
             .write_record(row)
-            .map_err(|error| Failure::file(self.path, error))
+            .map_err(|error| Failure::file(self.path, &of_csv(error)))
     }
 
     /// Hands all rows to the operating system, so that nothing is lost by what comes next.
@@ -36,7 +37,7 @@ impl<'path> CsvFile<'path> {
     /// # Errors
     /// They cannot be written.
     pub fn flush(&mut self) -> Result<(), Failure> {
-        self.writer.flush().map_err(|error| Failure::file(self.path, error))
+        self.writer.flush().map_err(|error| Failure::file(self.path, &error))
     }
 }
 
@@ -46,5 +47,14 @@ impl<'path> CsvFile<'path> {
 /// It cannot be written.
 pub fn check(path: &Path) -> Result<(), Failure> {
     let opened = File::options().append(true).create(true).open(path);
-    opened.map(drop).map_err(|error| Failure::file(path, error))
+    opened.map(drop).map_err(|error| Failure::file(path, &error))
+}
+
+/// The failure of the file, with its kind.
+fn of_csv(error: csv::Error) -> io::Error {
+    let text = error.to_string();
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        _ => io::Error::other(text),
+    }
 }

@@ -4,14 +4,14 @@ use clap::Args;
 use jostle::scene::{Causality, Kind, Variable};
 
 use crate::failure::Failure;
-use crate::selection::{Selected, Selection};
+use crate::selection::{self, Selected, Selection};
 use crate::{standard_output, text};
 
 /// Lists the variables of a scene: name, causality, unit, range, start value, meaning.
 ///
 /// Variables of every disk share a line, disk.angle[1..60]; --all gives each its own.
 #[derive(Args)]
-#[command(after_help = "Example:\n  jostle describe packing --drive sine")]
+#[command(after_help = format!("{}\nExample:\n  jostle describe packing --drive sine", selection::list()))]
 pub struct Describe {
     #[command(flatten)]
     selection: Selection,

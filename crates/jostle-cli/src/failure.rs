@@ -2,8 +2,9 @@
 
 use std::fmt;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use fmi_bundle::cannot_write;
 use jostle::Error;
 
 /// Why a command ended early.
@@ -11,17 +12,25 @@ use jostle::Error;
 pub enum Failure {
     /// The library refused.
     Refused(Error),
-    /// The library refused a step; what was written before is kept.
+    /// A step was refused or the disk is full; what was written before is kept.
     Stopped { error: Error, kept: String },
     /// A file could not be written.
-    File { path: PathBuf, error: io::Error },
+    File(Error),
+    /// Standard output could not be written.
+    Output(io::Error),
 }
 
 impl Failure {
-    pub fn file(path: &Path, error: impl Into<io::Error>) -> Self {
-        Self::File {
-            path: path.to_owned(),
-            error: error.into(),
+    /// A file could not be written.
+    pub fn file(path: &Path, error: &io::Error) -> Self {
+        Self::File(cannot_write(path, error))
+    }
+
+    /// This failure with what is left of the run.
+    pub fn keeping(self, kept: String) -> Self {
+        match self {
+            Self::Refused(error) | Self::File(error) => Self::Stopped { error, kept },
+            other => other,
         }
     }
 
@@ -42,12 +51,11 @@ impl From<Error> for Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Refused(error) => write!(formatter, "{error}"),
+            Self::Refused(error) | Self::File(error) => write!(formatter, "{error}"),
             Self::Stopped { error, kept } => write!(formatter, "{error}\n{kept}"),
-            Self::File { path, error } => write!(
+            Self::Output(error) => write!(
                 formatter,
-                "{} cannot be written: {error}. Check the folder, its permissions and the free space.",
-                path.display()
+                "standard output cannot be written: {error}. Check where it is sent to, and the free space there."
             ),
         }
     }

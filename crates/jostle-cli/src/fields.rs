@@ -14,7 +14,7 @@ use crate::csv_file::{self, CsvFile};
 use crate::failure::Failure;
 use crate::run::positive;
 use crate::selection::{Selected, Selection};
-use crate::{assignments, progress, standard_output, text};
+use crate::{assignments, output_file, progress, standard_output, text};
 
 /// Pieces of a run between which the progress bar moves.
 const PIECES: u64 = 100;
@@ -51,14 +51,17 @@ pub struct Fields {
     #[arg(long = "set", value_name = "NAME=VALUE")]
     assignments: Vec<String>,
     /// Boxes across a tooth.
-    #[arg(long, value_name = "N", default_value_t = Resolution::default().boxes, value_parser = value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = Resolution::default().boxes, value_parser = value_parser!(u32).range(1..=10_000), allow_negative_numbers = true)]
     boxes: u32,
     /// Windows of a period of the base.
-    #[arg(long, value_name = "N", default_value_t = Resolution::default().phases, value_parser = value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = Resolution::default().phases, value_parser = value_parser!(u32).range(1..=10_000), allow_negative_numbers = true)]
     phases: u32,
     /// Boxes across the whole cell instead of one tooth.
     #[arg(long)]
     whole_cell: bool,
+    /// Show no progress bar.
+    #[arg(long)]
+    no_progress: bool,
 }
 
 fn not_negative(text: &str) -> Result<f64, String> {
@@ -68,22 +71,21 @@ fn not_negative(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Refuses another `what` than the only one that has a flow.
+fn known(what: &str, given: &str, only: &str) -> Result<(), Error> {
+    if given == only {
+        return Ok(());
+    }
+    let allowed = format!("{only}, the only one whose flow can be averaged");
+    Err(Error::parameter(what, given, allowed, "Name this one."))
+}
+
 impl Fields {
     pub fn execute(self) -> Result<(), Failure> {
         let names = Names::from(&RatchetOnSine::info());
-        let wanted = (
-            self.selection.scene.as_str(),
-            self.selection.engine.as_deref().unwrap_or(names.engine),
-        );
-        if wanted != (names.scene, names.engine) {
-            return Err(Error::parameter(
-                "scene",
-                format!("{} with the engine {}", wanted.0, wanted.1),
-                format!("{} with the engine {}, which has a flow", names.scene, names.engine),
-                "Name this one.",
-            )
-            .into());
-        }
+        let (scene, engine) = (&self.selection.scene, self.selection.engine.as_deref());
+        known("scene", scene, names.scene)?;
+        known("engine", engine.unwrap_or(names.engine), names.engine)?;
         let began = Instant::now();
         let ratchet = self.prepare()?;
         self.check_files()?;
@@ -117,15 +119,16 @@ impl Fields {
 
     /// Refuses files that cannot be written before anything is computed for them.
     fn check_files(&self) -> Result<(), Failure> {
-        csv_file::check(&self.output)?;
-        let Some(profile) = &self.profile else {
-            return Ok(());
-        };
-        if *profile == self.output {
-            let allowed = "another file than --output, which holds the fields";
-            return Err(Error::parameter("--profile", profile.display(), allowed, "Name two files.").into());
+        output_file::check_csv("--output", &self.output)?;
+        if let Some(profile) = &self.profile {
+            output_file::check_csv("--profile", profile)?;
+            if *profile == self.output {
+                let allowed = "another file than --output, which holds the fields";
+                return Err(Error::parameter("--profile", profile.display(), allowed, "Name two files.").into());
+            }
         }
-        csv_file::check(profile)
+        csv_file::check(&self.output)?;
+        self.profile.as_deref().map_or(Ok(()), csv_file::check)
     }
 
     /// Runs the scene and returns the fields, the time of their end \[s\], and the simulation then.
@@ -144,7 +147,7 @@ impl Fields {
             whole_cell: self.whole_cell,
         };
         let mut fields = ratchet.model()?.flow_fields(resolution)?;
-        let bar = progress::bar(PIECES);
+        let bar = progress::bar(PIECES, !self.no_progress);
         for piece in 1..=PIECES {
             let time = self.warm_up + self.seconds * (piece as f64 / PIECES as f64);
             ratchet

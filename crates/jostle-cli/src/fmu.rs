@@ -9,8 +9,8 @@ use jostle::Error;
 use jostle::scene::{Kind, Unit, Variable};
 
 use crate::failure::Failure;
-use crate::icon;
-use crate::selection::Selection;
+use crate::selection::{self, Selection};
+use crate::{icon, output_file};
 
 /// The last second of the year 9999.
 const LATEST_DATE: u64 = 253_402_300_799;
@@ -20,7 +20,7 @@ const LATEST_DATE: u64 = 253_402_300_799;
 /// The FMU holds the library, the model description, a documentation page, an icon and the licences. What drives the
 /// scene and how many disks it has is decided here, since both change its list of variables.
 #[derive(Args, Debug)]
-#[command(after_help = "Example:\n  jostle fmu packing --fmi 3 --disks 60 --out packing.fmu")]
+#[command(after_help = format!("{}\nExample:\n  jostle fmu packing --fmi 3 --disks 60 --out packing.fmu", selection::list()))]
 pub struct Fmu {
     #[command(flatten)]
     selection: Selection,
@@ -56,6 +56,11 @@ impl Fmu {
     /// An unknown scene, engine or drive, a wrong disk count, no library to put in, no place to write to.
     pub fn execute(self) -> Result<(), Failure> {
         let selected = self.selection.find(self.drive.as_deref())?;
+        output_file::check_fmu("--out", &self.out)?;
+        if self.arrays && matches!(self.fmi, Standard::Two) {
+            let allowed = "3 with --arrays, since FMI 2.0 has no array variables";
+            return Err(Error::parameter("--fmi", 2, allowed, "Give --fmi 3, or leave --arrays out.").into());
+        }
         let structure: Vec<_> = selected.structure.iter().collect();
         let mut component = Component::new(&selected.model, &structure)?;
         let version = match self.fmi {
@@ -68,12 +73,24 @@ impl Fmu {
         component.icon = Some(icon::png()?);
         component.replay_command = Some("jostle replay FILE.fmu".into());
         component.amplitude = reference_amplitude;
-        let program = std::env::current_exe().map_err(|error| Failure::file("this program".as_ref(), error))?;
-        // Beside the program; tests and examples run one folder below the libraries.
-        let folders: Vec<_> = program.ancestors().skip(1).take(2).collect();
-        let library = find_library(&component.info().identifier, &folders)?;
+        let library = library(&component.info().identifier)?;
         Ok(fmi_bundle::write(&component, version, &library, &self.out)?)
     }
+}
+
+/// The library of a scene: beside this program, or one folder above, where tests and examples run.
+fn library(identifier: &str) -> Result<PathBuf, Error> {
+    let program = std::env::current_exe();
+    let program = program.map_err(|error| Error::file("this program".as_ref(), error, "Call it by its path."))?;
+    let folders: Vec<_> = program.ancestors().skip(1).take(2).collect();
+    find_library(identifier, &folders).map_err(|error| match error {
+        Error::File { path, what, .. } => {
+            let package = identifier.replace("jostle_", "fmu-").replace('_', "-");
+            let remedy = format!("Build it: cargo build --release -p jostle-cli -p {package}");
+            Error::File { path, what, remedy }
+        }
+        other => other,
+    })
 }
 
 /// Licence of the FMUs and notices of what their libraries hold.

@@ -11,6 +11,8 @@ mod failure;
 mod fields;
 mod fmu;
 mod icon;
+mod nearest;
+mod output_file;
 mod progress;
 mod replay;
 mod run;
@@ -25,7 +27,7 @@ use clap::{Parser, Subcommand};
 
 /// Vibrated granular disks as components for other people's simulations.
 #[derive(Parser)]
-#[command(name = "jostle", version, max_term_width = 100)]
+#[command(name = "jostle", version, max_term_width = 100, after_help = selection::list())]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -57,5 +59,43 @@ fn main() -> ExitCode {
             eprintln!("jostle: {failure}");
             ExitCode::from(failure.exit_code())
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::any::TypeId;
+
+    use clap::CommandFactory;
+    use clap::error::ErrorKind;
+
+    use super::*;
+
+    /// Otherwise a number below zero is taken for an option, and the message is about that.
+    #[test]
+    fn every_number_may_be_negative_as_far_as_the_parser_goes() {
+        let numbers = [TypeId::of::<f64>(), TypeId::of::<u32>(), TypeId::of::<i64>()];
+        let mut count = 0;
+        for command in Arguments::command().get_subcommands() {
+            for argument in command
+                .get_arguments()
+                .filter(|argument| argument.get_action().takes_values())
+            {
+                let of_type = argument.get_value_parser().type_id();
+                let Some(option) = argument
+                    .get_long()
+                    .filter(|_| numbers.iter().any(|number| of_type == *number))
+                else {
+                    continue;
+                };
+                let words = ["jostle", command.get_name(), &format!("--{option}"), "-5"];
+                let kind = Arguments::command()
+                    .try_get_matches_from(words)
+                    .map_err(|error| error.kind());
+                assert_ne!(kind.unwrap_err(), ErrorKind::UnknownArgument, "{words:?}");
+                count += 1;
+            }
+        }
+        assert!(count >= 9, "{count}");
     }
 }

@@ -13,8 +13,8 @@ use jostle::scene::{Causality, DynSimulation, Kind};
 
 use crate::csv_file::CsvFile;
 use crate::failure::Failure;
-use crate::selection::{Selected, Selection};
-use crate::{assignments, progress, standard_output, text};
+use crate::selection::{self, Selected, Selection};
+use crate::{assignments, output_file, progress, standard_output, text};
 
 /// Most rows of one file; more is a slip of the keyboard.
 const MOST_ROWS: f64 = 1e8;
@@ -25,10 +25,11 @@ const MOST_ROWS: f64 = 1e8;
 /// second file beside it, run.parameters.csv. Both are replaced if they exist. Every row is on disk as soon as it is
 /// computed: if a step is refused, or you interrupt the run, all rows before it are there.
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Example:\n  jostle run packing --seconds 10 --set drive.amplitude=1e-4 --set seed=7\n\n\
-    Exit code: 0 done, 2 wrong argument or parameter, 1 a step was refused or a file could not be written."
-)]
+#[command(after_help = format!(
+    "{}\nExample:\n  jostle run packing --seconds 10 --set drive.amplitude=1e-4 --set seed=7\n\n\
+    Exit code: 0 done, 2 wrong argument or parameter, 1 a step was refused or a file could not be written.",
+    selection::list()
+))]
 pub struct Run {
     #[command(flatten)]
     selection: Selection,
@@ -39,7 +40,7 @@ pub struct Run {
     #[arg(long, value_name = "FILE", default_value = "run.csv")]
     output: PathBuf,
     /// Time from one row to the next, in seconds; the last row is at the end in any case.
-    #[arg(long, value_name = "SECONDS", default_value = "0.01", value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", default_value = "0.01", value_parser = positive, allow_negative_numbers = true)]
     sample: f64,
     /// Parameter or constant input, such as contact.friction=0.2; may be repeated.
     #[arg(long = "set", value_name = "NAME=VALUE")]
@@ -47,6 +48,9 @@ pub struct Run {
     /// What moves the base, such as sine or input (held at what --set says). Without it sine, or else the engine's first.
     #[arg(long)]
     drive: Option<String>,
+    /// Show no progress bar.
+    #[arg(long)]
+    no_progress: bool,
 }
 
 pub fn positive(text: &str) -> Result<f64, String> {
@@ -60,6 +64,7 @@ impl Run {
     pub fn execute(self) -> Result<(), Failure> {
         let sine = || sine_if_known(&self.selection.scene, self.selection.engine.as_deref());
         let selected = self.selection.find(self.drive.as_deref().or_else(sine))?;
+        output_file::check_csv("--output", &self.output)?;
         let began = Instant::now();
         let rows = run(&self, &selected)?;
         let took = began.elapsed().as_secs_f64();
@@ -112,16 +117,19 @@ fn run(options: &Run, selected: &Selected) -> Result<u64, Failure> {
     let mut samples = Samples::create(&options.output, &*simulation)?;
     write_parameters(options, selected, &*simulation)?;
     samples.write(0.0, &*simulation)?;
-    let bar = progress::bar(last);
+    let bar = progress::bar(last, !options.no_progress);
     for row in 1..=last {
         let time = options.time(row);
-        if let Err(error) = simulation.advance_to(time) {
+        let advanced = simulation.advance_to(time).map_err(Failure::from);
+        if let Err(failure) = advanced.and_then(|()| samples.write(time, &*simulation)) {
             bar.abandon();
             let until = text::number(options.time(row - 1));
-            let kept = format!("{row} rows up to t = {until} s are in {}.", options.output.display());
-            return Err(Failure::Stopped { error, kept });
+            let kept = format!(
+                "{row} whole rows up to t = {until} s are in {}.",
+                options.output.display()
+            );
+            return Err(failure.keeping(kept));
         }
-        samples.write(time, &*simulation)?;
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -212,6 +220,7 @@ mod tests {
             sample,
             assignments: assignments.iter().map(|text| text.to_string()).collect(),
             drive: None,
+            no_progress: true,
         }
     }
 
@@ -285,7 +294,7 @@ mod tests {
         assert_eq!(failure.exit_code(), 1);
         let message = failure.to_string();
         assert!(
-            message.contains("the clock has stopped") && message.contains("5 rows up to t = 0.4 s"),
+            message.contains("the clock has stopped") && message.contains("5 whole rows up to t = 0.4 s"),
             "{message}"
         );
         assert_eq!(lines(&options.output).len(), 6);

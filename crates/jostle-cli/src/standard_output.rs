@@ -12,6 +12,6 @@ pub fn write(text: &str) -> Result<(), Failure> {
     let mut output = io::stdout().lock();
     match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        written => written.map_err(|error| Failure::file("standard output".as_ref(), error)),
+        written => written.map_err(Failure::Output),
     }
 }

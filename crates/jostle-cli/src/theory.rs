@@ -7,7 +7,9 @@ use jostle::measure::disk_on_two_supports::{
     critical_tilt, cycle, detachment_friction, detachment_tilt, limits, mean_torques, point, regime, relaxed,
 };
 
+use crate::assignments::split;
 use crate::failure::Failure;
+use crate::nearest::did_you_mean;
 use crate::{standard_output, text};
 
 /// Computes what the theory says of a scene and prints it as CSV: what varies, then the quantity, in SI units.
@@ -80,25 +82,20 @@ impl Theory {
     }
 }
 
-/// Values of each name that is set, in the order given; of several for one name the last counts.
+/// Values of each name that is set, in the order given.
 fn swept(assignments: &[String]) -> Result<Vec<(usize, Vec<f64>)>, Error> {
     let mut swept: Vec<(usize, Vec<f64>)> = Vec::new();
-    for assignment in assignments {
-        let Some((name, values)) = assignment.split_once('=') else {
-            let remedy = "Write it as in --set tilt=0.1.";
-            return Err(Error::parameter("--set", assignment, "NAME=VALUES", remedy));
-        };
-        let name = name.trim();
+    for (name, values) in split(assignments, "NAME=VALUES", "tilt=0.1")? {
         let Some(position) = DEFAULTS.iter().position(|(known, _)| *known == name) else {
-            let known: Vec<&str> = DEFAULTS.iter().map(|(known, _)| *known).collect();
+            let known = DEFAULTS.map(|(known, _)| known);
             let allowed = format!("one of: {}", known.join(", "));
-            return Err(Error::parameter("--set", name, allowed, "Name one of these."));
+            let error = Error::parameter("--set", name, allowed, "Name one of these.");
+            return Err(did_you_mean(error, known));
         };
         let Some(values) = numbers(values) else {
             let allowed = "a number, a list 0.1,0.2 or a range 0.1:0.2:11";
             return Err(Error::parameter(name, values, allowed, "Write numbers with digits."));
         };
-        swept.retain(|(earlier, _)| *earlier != position);
         swept.push((position, values));
     }
     let rows = swept
@@ -322,6 +319,8 @@ mod tests {
     fn what_is_wrong_is_named() {
         assert!(answer(&["tilt"]).contains("NAME=VALUES"));
         assert!(answer(&["tlt=1"]).contains("one of: gravity"));
+        assert!(answer(&["tlt=1"]).contains("Did you mean tilt? Name one of these."));
+        assert!(answer(&["tilt=0.1", "tilt=0.2"]).contains("tilt = 0.1 is set before"));
         assert!(answer(&["tilt=0.1:0.2"]).contains("tilt = 0.1:0.2"));
         assert!(answer(&["tilt=NaN"]).contains("tilt = NaN"));
         assert!(answer(&["tilt=0.6"]).contains("rolls off"));

@@ -1,25 +1,11 @@
 //! The command line as a user meets it: exit codes, messages, files.
 #![allow(clippy::unwrap_used)]
 
-use std::path::PathBuf;
+mod support;
+
 use std::process::{Command, Output};
 
-fn jostle(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_jostle"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-fn folder(name: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
+use support::{folder, jostle, text};
 
 #[test]
 fn every_command_explains_itself_with_an_example() {
@@ -148,7 +134,7 @@ fn a_refused_step_ends_with_code_1_and_keeps_the_rows() {
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     let rows = std::fs::read_to_string(&file).unwrap().lines().count() - 1;
     assert!(
-        rows >= 1 && text(&output.stderr).contains(&format!("{rows} rows up to t = ")),
+        rows >= 1 && text(&output.stderr).contains(&format!("{rows} whole rows up to t = ")),
         "{}",
         text(&output.stderr)
     );
@@ -166,7 +152,7 @@ fn a_file_that_cannot_be_written_ends_with_code_1() {
     ]);
     assert_eq!(output.status.code(), Some(1));
     assert!(
-        text(&output.stderr).contains("cannot be written"),
+        text(&output.stderr).contains("the folder no/such/folder does not exist. Create it, or choose another."),
         "{}",
         text(&output.stderr)
     );
@@ -235,7 +221,10 @@ fn fields_refuses_its_files_before_it_computes() {
     let (path, nowhere) = (file.to_str().unwrap(), "no/such/folder/profile.csv");
     // So long a run would not end within the time of a test.
     let long = ["fields", "ratchet", "--seconds", "1e6", "--output", path, "--profile"];
-    for (profile, code, message) in [(path, 2, "Name two files"), (nowhere, 1, "cannot be written")] {
+    for (profile, code, message) in [
+        (path, 2, "Name two files"),
+        (nowhere, 1, "no/such/folder does not exist"),
+    ] {
         let output = jostle(&[&long[..], &[profile]].concat());
         assert_eq!(output.status.code(), Some(code), "{}", text(&output.stderr));
         assert!(text(&output.stderr).contains(message), "{}", text(&output.stderr));

@@ -3,7 +3,8 @@
 from collections.abc import Callable
 from time import perf_counter
 
-from jostle_lab.coupling.master import Coupling, Exchange
+from jostle_lab.coupling.exchange import Exchange
+from jostle_lab.coupling.master import Coupling
 from jostle_lab.errors import LabError
 from jostle_lab.fmu.grains import Grains
 from jostle_lab.loudspeaker.model import Loudspeaker

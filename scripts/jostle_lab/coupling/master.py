@@ -10,23 +10,15 @@ The measure of the coupling error is the difference between the work done by the
 displacement) and the work received by the grains (force times the displacement of their base). It vanishes with h.
 """
 
-from enum import StrEnum
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
+from jostle_lab.coupling.exchange import Exchange
 from jostle_lab.errors import LabError
 from jostle_lab.fmu.grains import Grains
 from jostle_lab.loudspeaker.model import Loudspeaker
-
-
-class Exchange(StrEnum):
-    """Order of the exchange."""
-
-    JACOBI = "jacobi"
-    GRAINS_FIRST = "grains-first"
-    ITERATED = "iterated"
 
 
 class Coupling:

@@ -25,24 +25,40 @@ from fmpy.logging import addLoggerProxy
 from numpy.typing import NDArray
 
 from jostle_lab import locate
-from jostle_lab.errors import LabError
+from jostle_lab.errors import LabError, did_you_mean
 
 WARNING = 1
 """Highest status that is still a success: 0 ok, 1 warning, 2 discard, 3 error, 4 fatal."""
 START_TIME = 0.0
 
 
-def describe(path: Path, scene: str = "packing") -> Any:
-    """The model description."""
+def describe(path: Path, scene: str = "packing", version: int = 3) -> Any:
+    """The model description; `version` is that of the FMU which the error says how to make."""
     try:
         return read_model_description(str(path))
     except Exception as error:
-        raise LabError(f"{path} is not a readable FMU: {error}. Bundle it again with `jostle fmu {scene}`.") from error
+        remedy = f"Make it again: {_made(scene, version)}"
+        raise LabError(f"{path} is not a readable FMU: {str(error).rstrip('.')}. {remedy}") from error
+
+
+def require_version(path: Path, scene: str, version: int, option: str) -> None:
+    """Raise LabError unless the FMU is for this version of FMI, which `option` asks for."""
+    found = describe(path, scene, version).fmiVersion
+    if not found.startswith(str(version)):
+        raise LabError(f"{option} {path} is an FMU for FMI {found}, not {version}.0. Make one: {_made(scene, version)}")
+
+
+def _made(scene: str, version: int) -> str:
+    return f"jostle fmu {scene} --drive input --fmi {version} --out {scene}_fmi{version}.fmu"
 
 
 def fingerprint(path: Path) -> str:
     """Checksum of the binaries of an FMU, eight hexadecimal digits: the same physics, the same fingerprint."""
-    with zipfile.ZipFile(path) as archive:
+    try:
+        archive = zipfile.ZipFile(path)
+    except zipfile.BadZipFile as error:
+        raise LabError(f"{path} is not a readable FMU: {error}. Bundle it again with `jostle fmu`.") from None
+    with archive:
         sums = [entry.CRC for entry in archive.infolist() if entry.filename.startswith("binaries/")]
     return f"{zlib.crc32(repr(sums).encode()):08x}"
 
@@ -122,10 +138,10 @@ class FmuInstance:
     def _instantiate(self) -> None:
         description, kind = self._description, self._description.coSimulation
         if kind is None:
-            raise LabError(f"{self.path} has no co-simulation interface. Bundle it with `jostle fmu {self.scene}`.")
+            raise LabError(f"{self.path} has no co-simulation interface. Make one: {_made(self.scene, 3)}")
         self.fmi_version = 2 if description.fmiVersion.startswith("2") else 3
         if self.events and not (self.fmi_version == 3 and kind.hasEventMode):
-            raise LabError(f"{self.path} has no event mode. Bundle it with `jostle fmu {self.scene} --fmi 3`.")
+            raise LabError(f"{self.path} has no event mode. Make one: {_made(self.scene, 3)}")
         slave = FMU2Slave if self.fmi_version == 2 else FMU3Slave
         fmu: Any = slave(
             guid=description.guid,
@@ -140,7 +156,7 @@ class FmuInstance:
                 modes = {"eventModeUsed": self.events, "earlyReturnAllowed": self.events}
                 fmu.instantiate(logMessage=self._record_log, **modes)
         except Exception as error:
-            said = " ".join(self._log) or f"{error}."
+            said = " ".join(self._log) or f"{str(error).rstrip('.')}."
             raise LabError(f"{self.path} cannot be instantiated. {said} Bundle it again after a build.") from error
         self._fmu = fmu
         self._bind(fmu.dll)
@@ -181,7 +197,9 @@ class FmuInstance:
         except LabError:
             raise
         except Exception as error:
-            raise LabError(f"{self.path} refuses {dict(parameters)}: {error}. {' '.join(self._log)}") from error
+            given = ", ".join(f"{name} = {value:g}" for name, value in parameters.items()) or "its start values"
+            said = " ".join(self._log[-1:]) or f"{str(error).rstrip('.')}, and the FMU gave no message."
+            raise LabError(f"{self.path} refuses {given}: {said}") from error
         if self.events:
             self.resume()
 
@@ -193,9 +211,9 @@ class FmuInstance:
 
     def _variable(self, name: str) -> Any:
         if name not in self._variables:
-            raise LabError(
-                f"{self.path} has no variable {name}. Is it bundled with `jostle fmu {self.scene} --drive input`?"
-            )
+            near = did_you_mean(name, self._variables)
+            made = f"Is it bundled with `jostle fmu {self.scene} --drive input`?"
+            raise LabError(f"{self.path} has no variable {name}.{near} {made}")
         return self._variables[name]
 
     def group(self, names: Sequence[str]) -> Group:

@@ -19,6 +19,14 @@ class FmuFactory:
 
     path: str
     parameters: tuple[tuple[str, float], ...] = ()
+    """Not `seed`, which is that of the call."""
+
+    def __post_init__(self) -> None:
+        """Refuse a seed, which would be recorded and not used."""
+        if "seed" in dict(self.parameters):
+            raise LabError(
+                "seed cannot be set here: packing by packing it is 1, 2, ..., or from --first-seed on. Leave it out."
+            )
 
     def __call__(self, seed: int) -> "FmuGrains":
         """Grains of one packing."""

@@ -1,13 +1,13 @@
-"""`jostle-lab loudspeaker`."""
+"""`jostle-lab loudspeaker`. What takes long to import is imported when it is needed."""
 
 import typer
-
-from jostle_lab.loudspeaker.driver import CARRIED_MASSES, GBS_250F38CP01_04
-from jostle_lab.loudspeaker.model import Loudspeaker
 
 
 def loudspeaker() -> None:
     """Print the loudspeaker: driver, masses, and what full drive asks of it."""
+    from jostle_lab.loudspeaker.driver import CARRIED_MASSES, GBS_250F38CP01_04
+    from jostle_lab.loudspeaker.model import Loudspeaker
+
     speaker, driver = Loudspeaker(1.0 / 2400), GBS_250F38CP01_04
     typer.echo(f"{driver.name}\n  {driver.source}")
     for name, mass in CARRIED_MASSES.items():

@@ -2,9 +2,13 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import matplotlib as mpl
 from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
+
+from jostle_lab.errors import about
 
 STYLE = {
     "font.size": 9.0,
@@ -25,6 +29,14 @@ SENSE = LinearSegmentedColormap.from_list("sense", [CLOCKWISE, "#f4f2ee", COUNTE
 """Red clockwise, blue counter-clockwise, as in P Fig. 1.8."""
 WIDTH = 7.2
 """Width of every picture [inch]."""
+
+
+def save(figure: Figure, path: Path) -> None:
+    """Write a picture; what fails names the file."""
+    try:
+        figure.savefig(path)
+    except OSError as error:
+        raise about(path, error) from None
 
 
 @contextmanager

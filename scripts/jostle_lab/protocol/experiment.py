@@ -15,8 +15,10 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from jostle_lab.coupling.master import Coupling, Exchange
+from jostle_lab.coupling.exchange import Exchange
+from jostle_lab.coupling.master import Coupling
 from jostle_lab.errors import LabError, require
+from jostle_lab.files import replace_text
 from jostle_lab.fmu.grains import Grains
 from jostle_lab.loudspeaker.model import Loudspeaker
 from jostle_lab.protocol.intervals import Interval, Protocol
@@ -24,7 +26,7 @@ from jostle_lab.sensors.accelerometer import STANDARD_GRAVITY, Accelerometer
 from jostle_lab.sensors.camera import Camera, aliasing, photograph, unwrap
 from jostle_lab.sensors.spectral_amplitude import spectral_amplitude, true_amplitude
 from jostle_lab.statistics.rotation import rotation
-from jostle_lab.tables import Row, write_table
+from jostle_lab.tables import Row, write_frame, write_table
 
 SENSORS = 2
 KEPT_SECONDS = 60
@@ -133,8 +135,8 @@ class PackingRun:
         for file, column, blocks in (("angles", "disk", self._angles), ("accelerometers", "sensor", self._readings)):
             rows = np.concatenate(blocks)
             names = ["amplitude", "time", *(f"{column}_{i}" for i in range(1, rows.shape[1] - 1))]
-            pl.DataFrame(rows, schema=names).write_csv(self.folder / f"{file}.csv")
-        (self.folder / UNFINISHED).write_text(json.dumps(self._summary(), indent=2) + "\n")
+            write_frame(self.folder / f"{file}.csv", pl.DataFrame(rows, schema=names))
+        replace_text(self.folder / UNFINISHED, json.dumps(self._summary(), indent=2) + "\n")
 
     def _summary(self) -> dict[str, Any]:
         costs = {"loudspeaker": self.coupling.loudspeaker_cost, "sensors and analysis": self.sensor_cost}

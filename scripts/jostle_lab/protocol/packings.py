@@ -15,6 +15,7 @@ from typing import Any
 from tqdm import tqdm
 
 from jostle_lab.errors import LabError
+from jostle_lab.files import read_json, replace_text
 from jostle_lab.fmu.grains import Grains
 from jostle_lab.protocol.experiment import FINISHED, Setup, run_packing
 
@@ -69,13 +70,14 @@ def _claim(plan: Plan) -> None:
     """Write what is being run, or refuse a folder that holds something else."""
     description = {**dict(plan.labels), "setup": json.loads(json.dumps(asdict(plan.setup)))}
     file = plan.results / "run.json"
-    if file.exists() and json.loads(file.read_text()) != description:
+    afresh = f"Remove {plan.results} to start afresh."
+    if file.exists() and read_json(file, afresh) != description:
         raise LabError(
             f"{plan.results} holds results of other settings (see {file.name}). "
             "Choose another --results folder, or remove this one to start afresh."
         )
     plan.results.mkdir(parents=True, exist_ok=True)
-    file.write_text(json.dumps(description, indent=2) + "\n")
+    replace_text(file, json.dumps(description, indent=2) + "\n")
 
 
 @contextmanager

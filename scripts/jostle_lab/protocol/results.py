@@ -1,6 +1,5 @@
 """A results folder, read back: what pictures and the page of numbers are made of."""
 
-import json
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -10,6 +9,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from jostle_lab.errors import LabError
+from jostle_lab.files import read_json
 from jostle_lab.protocol.experiment import FINISHED, UNFINISHED
 from jostle_lab.tables import Row, read_table
 
@@ -26,9 +26,10 @@ class Results:
         files = sorted(file for name in names for file in folder.glob(f"packings/seed-*/{name}"))
         if not files:
             raise LabError(f"{folder} holds no finished packing. Run `jostle-lab demo --results {folder}`.")
-        self.run: dict[str, Any] = json.loads((folder / "run.json").read_text())
+        again = f"Remove it and run `jostle-lab demo --results {folder}` again."
+        self.run: dict[str, Any] = read_json(folder / "run.json", again)
         self.setup: dict[str, Any] = self.run["setup"]
-        self.summaries: list[dict[str, Any]] = [json.loads(file.read_text()) for file in files]
+        self.summaries: list[dict[str, Any]] = [read_json(file, again) for file in files]
         self._folders = {s["seed"]: file.parent for s, file in zip(self.summaries, files, strict=True)}
         self.seeds: list[int] = list(self._folders)
 

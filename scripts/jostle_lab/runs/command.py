@@ -1,4 +1,4 @@
-"""`jostle-lab sweep`."""
+"""`jostle-lab sweep`. What takes long to import is imported when it is needed."""
 
 from collections import Counter
 from pathlib import Path
@@ -8,15 +8,13 @@ import typer
 
 from jostle_lab import locate, options
 from jostle_lab.errors import LabError
-from jostle_lab.runs.grid import make_grid, read_grid
-from jostle_lab.runs.store import Store
-from jostle_lab.runs.sweep import Sweep, Workers
-from jostle_lab.runs.worker import DONE, FAILED, Program
+from jostle_lab.runs.grid import ENGINES, make_grid, read_grid
+from jostle_lab.runs.limits import refuse_what_no_run_takes
 
 
 def sweep(
     file: Annotated[Path | None, typer.Argument(help="Grid in TOML; see below. Options go over what it says.")] = None,
-    scene: Annotated[str | None, typer.Option(help="Scene, such as ratchet.")] = None,
+    scene: Annotated[str | None, typer.Option(help=f"Scene: {', '.join(ENGINES)}.")] = None,
     engine: Annotated[str | None, typer.Option(help="Engine, if not the scene's first.")] = None,
     drive: Annotated[str | None, typer.Option(help="What moves the base, if not a sine.")] = None,
     seconds: Annotated[float | None, typer.Option(help="Simulated seconds of each run.")] = None,
@@ -42,13 +40,20 @@ def sweep(
     The file: scene, engine, drive, seconds, seeds (a number or a list), a table [set] and a table [grid] of lists or
     {from = , to = , count = }. A failed run is kept with its error. Read the results with any reader of Parquet.
     """
+    from jostle_lab.runs.store import Store
+    from jostle_lab.runs.sweep import Sweep, Workers
+    from jostle_lab.runs.worker import DONE, FAILED, Program
+
     changes: dict[str, Any] = {"scene": scene, "engine": engine, "drive": drive, "seconds": seconds, "seeds": seeds}
     changes["set"] = dict(options.parameters(fixed))
-    changes["grid"] = dict(_axis(text) for text in axes or [])
+    named = [_axis(text) for text in axes or []]
+    options.once("--grid", [name for name, _ in named])
+    changes["grid"] = dict(named)
     grid = read_grid(file, changes) if file is not None else make_grid({}, changes, "sweep")
     runs = grid.runs()
-    found = locate.program(program).resolve()
-    whole = Program(str(found), locate.fingerprint(found), limit)
+    native = locate.program(program).resolve()
+    refuse_what_no_run_takes(native, runs)
+    whole = Program(str(native), locate.fingerprint(native), limit)
     rows = Sweep(Store(results), whole, Workers(scheduler, processes), progress, retry_failed).run(runs)
     states = Counter(row["state"] for row in rows.values())
     typer.echo(f"{len(rows)} runs in {results}: {states[DONE]} done, {states[FAILED]} failed")

@@ -23,7 +23,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from jostle_lab.errors import LabError
+from jostle_lab.errors import LabError, did_you_mean
 from jostle_lab.runs.run import Run
 
 ENGINES = {
@@ -57,9 +57,14 @@ class Grid:
         Raises LabError for a grid that no program can run.
         """
         if self.scene not in ENGINES and not self.engine:
-            raise LabError(f"scene = {self.scene!r} is none of {', '.join(ENGINES)}. Name one of them, or an engine.")
+            near = did_you_mean(self.scene, ENGINES)
+            raise LabError(
+                f"scene = {self.scene!r} is none of {', '.join(ENGINES)}.{near} Name one of them, or an engine."
+            )
         if not (math.isfinite(self.seconds) and self.seconds > 0.0):
             raise LabError(f"seconds = {self.seconds:g} is not a time above 0. Write, say, seconds = 30.0")
+        if "seed" in {*self.fixed, *self.axes}:
+            raise LabError("seed is neither set nor on the grid. Say which there are with seeds (a number or a list).")
         twice = sorted(set(self.fixed) & set(self.axes))
         if twice:
             raise LabError(f"{', '.join(twice)} is both fixed and on the grid. Remove one of the two.")
@@ -103,7 +108,8 @@ def make_grid(table: Mapping[str, Any], changes: Mapping[str, Any], where: str) 
     """The grid of a table as in the file; `changes` go over it. `where` names the table in errors."""
     unknown = sorted(set(table) - set(KEYS))
     if unknown:
-        raise LabError(f"{where}: {', '.join(unknown)} is not known. There are {', '.join(KEYS)}.")
+        near = did_you_mean(unknown[0], KEYS)
+        raise LabError(f"{where}: {', '.join(unknown)} is not known.{near} There are {', '.join(KEYS)}.")
     fixed = {**_flat(table.get("set", {}), where), **changes.get("set", {})}
     axes = {**_flat(table.get("grid", {}), where), **changes.get("grid", {})}
     for name in changes.get("set", {}):

@@ -3,7 +3,6 @@
 A run is found again by its arguments and by the program itself: rebuild the program and everything is run anew.
 """
 
-import subprocess
 import tempfile
 import time
 from collections.abc import Sequence
@@ -15,8 +14,8 @@ from typing import Any
 from joblib import Memory, Parallel, delayed
 from tqdm import tqdm
 
-from jostle_lab.errors import LabError
 from jostle_lab.locate import fingerprint
+from jostle_lab.programs import output_of
 from jostle_lab.runs.run import Run
 from jostle_lab.tables import Table, parse_csv
 
@@ -64,15 +63,6 @@ class Laboratory:
             numbers = [values] if isinstance(values, int | float) else values
             words += ["--set", name.replace("__", ".") + "=" + ",".join(repr(float(number)) for number in numbers)]
         return parse_csv(output_of(words))
-
-
-def output_of(words: list[str], folder: Path | None = None) -> str:
-    """What a program prints; raises LabError with its messages if it fails."""
-    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        where = f" in {folder}" if folder else ""
-        raise LabError(f"{' '.join(words)} failed{where}:\n{done.stderr.strip()}")
-    return done.stdout
 
 
 def _perform(program: Path, version: str, arguments: list[str]) -> tuple[Table, float]:

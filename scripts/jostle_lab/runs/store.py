@@ -1,7 +1,8 @@
 """Rows of a sweep in a folder of Parquet parts.
 
 Guarantees: a part is whole or absent, whenever the process is killed; a run has one row, the last that was written;
-one sweep writes at a time. Needs: a local file system that renames atomically and knows flock.
+one sweep writes at a time. Needs: a local file system that renames atomically and knows flock. What is no part begins
+with an underscore: readers of a folder of Parquet pass such files over.
 """
 
 import fcntl
@@ -16,6 +17,8 @@ from jostle_lab.tables import Row
 
 MANY_PARTS = 50
 """Parts from which on they are joined when a sweep begins or ends."""
+
+LOCK, DRAFT = "_lock", "_part.draft"
 
 
 class Store:
@@ -50,11 +53,12 @@ class Store:
     @contextmanager
     def writing(self) -> Iterator[None]:
         """Hold the folder against other sweeps; the lock goes with the process, however it ends."""
-        with (self.folder / "lock").open("w") as lock:
+        with (self.folder / LOCK).open("w") as lock:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 raise LabError(f"Another sweep writes to {self.folder}. Wait for it, or take another folder.") from None
+            self._remove_names_of_before()
             self._join_many()
             yield
             self._join_many()
@@ -62,6 +66,13 @@ class Store:
     def _join_many(self) -> None:
         if len(self._parts()) > MANY_PARTS:
             self.join()
+
+    def _remove_names_of_before(self) -> None:
+        """Remove the lock and the draft as sweeps of earlier versions called them."""
+        lock = self.folder / "lock"
+        if lock.is_file() and lock.stat().st_size == 0:
+            lock.unlink()
+        (self.folder / "part.draft").unlink(missing_ok=True)
 
     def _parts(self) -> list[Path]:
         return sorted(self.folder.glob("part-*.parquet"))
@@ -75,6 +86,12 @@ class Store:
     def _write(self, table: pl.DataFrame) -> None:
         parts = self._parts()
         number = int(parts[-1].stem.removeprefix("part-")) + 1 if parts else 1
-        draft = self.folder / "part.draft"
-        table.write_parquet(draft)
+        draft = self.folder / DRAFT
+        try:
+            table.write_parquet(draft)
+        except (OSError, pl.exceptions.PolarsError) as error:
+            draft.unlink(missing_ok=True)
+            raise LabError(
+                f"{draft} cannot be written: {error}. Make room, then repeat: what is there stays."
+            ) from None
         draft.replace(self.folder / f"part-{number:08d}.parquet")

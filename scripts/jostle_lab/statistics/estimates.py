@@ -102,7 +102,8 @@ def zero_crossings(x: Sequence[float], estimates: Sequence[Estimate], significan
     """Where a curve changes sign for certain: between points that are `significance` errors from zero.
 
     Points too close to zero are passed over. The place is that of the straight line between the two points next to the
-    crossing, its error that of the line.
+    crossing, its error that of the line. Where the means in between change sign more than once, it is the middle of
+    these changes, and half of the way from the first to the last is added to the error.
     """
     crossings = []
     last: int | None = None
@@ -116,8 +117,28 @@ def zero_crossings(x: Sequence[float], estimates: Sequence[Estimate], significan
 
 
 def _crossing(x: Sequence[float], estimates: Sequence[Estimate], first: int, last: int) -> Estimate:
+    place, error = _line(x, estimates, first, last)
+    pairs = ((i, i + 1) for i in range(first, last) if estimates[i].mean * estimates[i + 1].mean < 0.0)
+    changes = [_line(x, estimates, *pair)[0] for pair in pairs]
+    if len(changes) > 1:
+        place, error = 0.5 * (changes[0] + changes[-1]), math.hypot(error, 0.5 * (changes[-1] - changes[0]))
+    return Estimate(place, error)
+
+
+def _line(x: Sequence[float], estimates: Sequence[Estimate], first: int, last: int) -> tuple[float, float]:
+    """Where the straight line between two points crosses zero, and the error of that."""
     a, b = estimates[first], estimates[last]
     span, height = x[last] - x[first], a.mean - b.mean
     share = a.mean / height
-    error = abs(span / height) * math.hypot((1.0 - share) * a.error, share * b.error)
-    return Estimate(x[first] + share * span, error)
+    return x[first] + share * span, abs(span / height) * math.hypot((1.0 - share) * a.error, share * b.error)
+
+
+def places(crossings: Sequence[Estimate], unit: str) -> str:
+    """The crossings as words, such as `20.1 +- 0.3, 30.0 +- 0.2 Hz`, or `none`."""
+    return f"{', '.join(map(str, crossings))} {unit}".rstrip() if crossings else "none"
+
+
+def sign_changes(crossings: Sequence[Estimate], unit: str, name: str = "") -> str:
+    """The crossings as words, such as `sign changes at h = 20.1 +- 0.3 mm`, or `no sign change`."""
+    at = f"{name} = " if name else ""
+    return f"sign changes at {at}{places(crossings, unit)}" if crossings else "no sign change"

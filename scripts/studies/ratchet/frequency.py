@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from jostle_lab.statements import Statement, Verdict, verdict
-from jostle_lab.statistics.estimates import Estimate, chi_square
+from jostle_lab.statistics.estimates import Estimate, chi_square, sign_changes
 from studies.ratchet.cases import Case, Plan, Points
 from studies.ratchet.study import Curve, Study, curves, listed, panel_of_curves, share
 
@@ -75,7 +75,7 @@ def _reversal(n: float, curve: Curve, crossings: list[Estimate]) -> Statement:
     return Statement(
         "IV C, Fig. 10",
         f"n = {n:g}: {printed}",
-        f"sign changes at {', '.join(map(str, crossings)) or 'none'} Hz{positive}; by f [Hz]: {by}{late}",
+        f"{sign_changes(crossings, 'Hz')}{positive}; by f [Hz]: {by}{late}",
         verdict(turned) if reverses else Verdict.OPEN if late else verdict(not crossings),
     )
 
@@ -108,8 +108,8 @@ def onset_statements(points: Points) -> list[Statement]:
         Statement(
             "IV D, Fig. 12",
             "with rising frequency it turns back, and the transport reverses",
-            f"largest {curve.estimates[top]} cm/s at {curve.x[top]:g} Hz; sign changes at "
-            f"{', '.join(map(str, crossings)) or 'none'} Hz; by f [Hz]: {by}",
+            f"largest {curve.estimates[top]} cm/s at {curve.x[top]:g} Hz; "
+            f"{sign_changes(crossings, 'Hz')}; by f [Hz]: {by}",
             verdict(len(crossings) == 1 and curve.points[-1].sign() == -1),
         ),
     ]

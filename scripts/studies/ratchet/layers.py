@@ -6,6 +6,7 @@ from functools import partial
 from matplotlib.figure import Figure
 
 from jostle_lab.statements import Statement, verdict
+from jostle_lab.statistics.estimates import sign_changes
 from studies.ratchet.cases import Case, Plan, Points
 from studies.ratchet.study import Curve, Study, Table, curves, listed, panel_of_curves, share
 
@@ -81,7 +82,7 @@ def _turns_positive(frequency: float, curve: Curve) -> Statement:
     return Statement(
         "IV B, Fig. 8",
         "negative transport becomes zero and turns positive as the layer gets deeper",
-        f"{frequency:g} Hz: sign changes at n = {', '.join(map(str, crossings)) or 'none'}; {_by(curve)}",
+        f"{frequency:g} Hz: {sign_changes(crossings, '', 'n')}; {_by(curve)}",
         verdict(curve.points[0].sign() == -1 and len(crossings) == 1),
     )
 

@@ -3,6 +3,7 @@
 from matplotlib.figure import Figure
 
 from jostle_lab.statements import Statement, verdict
+from jostle_lab.statistics.estimates import sign_changes
 from studies.ratchet.cases import Case, Plan, Points
 from studies.ratchet.study import Curve, Study, Table, curves, listed, panel_of_curves, share
 
@@ -143,7 +144,7 @@ def _along_height(asymmetry: float, curve: Curve) -> list[Statement]:
         Statement(
             "IV A, Fig. 7",
             f"a = {asymmetry:g}: positive for small h, turns negative as h grows",
-            f"sign changes at h = {', '.join(map(str, crossings)) or 'none'} mm; {by}",
+            f"{sign_changes(crossings, 'mm', 'h')}; {by}",
             verdict(len(crossings) >= 1 and curve.points[1].sign() == 1 and deepest.mean < -3.0 * deepest.error),
         ),
         Statement(

@@ -2,7 +2,6 @@
 
 import ctypes
 import re
-import subprocess
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 from fmpy import read_model_description
 
 from jostle_lab.errors import LabError
+from jostle_lab.programs import completed
 
 OLDEST_GLIBC = (2, 17)
 """What anything that ships may need at most: what zig links against in scripts/release, of the year 2012."""
@@ -108,7 +108,10 @@ def _has_twin(library: Path) -> bool:
 
 def scenes(c_library: Path) -> list[tuple[str, str, str]]:
     """Scene, engine and drive of everything that the C library knows."""
-    loaded = ctypes.CDLL(str(c_library))
+    try:
+        loaded = ctypes.CDLL(str(c_library))
+    except OSError as error:
+        raise LabError(f"{c_library} is not loaded: {error}. Build it with scripts/release") from None
     loaded.jostle_scenes.restype = ctypes.c_size_t
     text = ctypes.create_string_buffer(1 << 16)
     loaded.jostle_scenes(text, ctypes.c_size_t(len(text)))
@@ -173,7 +176,7 @@ def _identifier(fmu: Path) -> str:
 
 
 def _run(*arguments: str) -> str:
-    done = subprocess.run(arguments, capture_output=True, text=True, check=False)
+    done = completed(arguments)
     if done.returncode != 0:
         raise LabError(f"{arguments[0]} failed: {done.stderr.strip()[-400:]}. Check that it is installed")
     return done.stdout

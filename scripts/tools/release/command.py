@@ -24,6 +24,9 @@ def binaries(
     ] = None,
 ) -> None:
     """Print the size of each FMU and library, and what it needs; refuse what needs more than it may."""
+    for given in (folder, symbols):
+        if given is not None and not given.is_dir():
+            raise LabError(f"The folder {given} does not exist. Make it with scripts/release, or name another.")
     if symbols is not None:
         if words := unknown(symbols):
             raise LabError(f"no symbol in {symbols} holds {words}. Was a module renamed? Correct binaries.py")

@@ -5,7 +5,6 @@ us; and a panic inside of a scene, which a small FMU made for tests provokes, st
 """
 
 import multiprocessing
-import subprocess
 import tempfile
 import zipfile
 from collections.abc import Callable
@@ -18,6 +17,7 @@ from fmpy.validation import validate_fmu
 
 from jostle_lab.errors import LabError
 from jostle_lab.fmu.instance import FmuInstance
+from jostle_lab.programs import completed
 from jostle_lab.tables import parse_csv
 
 REFERENCE = "extra/jostle/reference.csv"
@@ -53,7 +53,7 @@ def verify(folder: Path, probes: list[Path]) -> list[str]:
 
 
 def _replayed(program: Path, fmu: Path) -> None:
-    done = subprocess.run([program, "replay", "--exact", fmu], capture_output=True, text=True, check=False)
+    done = completed([program, "replay", "--exact", fmu])
     _hold(done.returncode == 0, f"{fmu} does not follow its own reference: {done.stderr.strip()}")
 
 

@@ -9,7 +9,7 @@ import typer
 from jostle_lab import locate
 from jostle_lab.errors import LabError
 from jostle_lab.fmu.packing import FmuFactory
-from jostle_lab.runs.laboratory import output_of
+from jostle_lab.programs import output_of
 from jostle_lab.tables import write_table
 from tools.paths import INSTRUCTION_COUNTS, ROOT, WORK_PRECISION, WORK_PRECISION_PAGE
 from tools.work_precision import coupling_points, page, peer_points, points

@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 use crate::contact::ContactLaws;
 use crate::engine::disk_on_two_supports::{SupportFrame, TwoSupportsRig};
 use crate::error::{Error, Result};
+use crate::scene::info::GRAVITY;
 use crate::scene::soft_disks::contact_laws;
 use crate::scene::{Row, Unit, Values};
 
@@ -24,13 +25,7 @@ pub fn rows<M>() -> Vec<Row<M>> {
 
 fn geometry<M>() -> Vec<Row<M>> {
     vec![
-        Row::parameter(
-            "gravity",
-            Unit::METRE_PER_SECOND_SQUARED,
-            1e-3..=1e4,
-            10.0,
-            "Gravity, downwards",
-        ),
+        Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 1e-3..=1e4, 10.0, GRAVITY),
         Row::parameter(
             "tilt",
             Unit::RADIAN,

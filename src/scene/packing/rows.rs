@@ -6,6 +6,7 @@ use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::{
     BaseRows, DisksOnBase, heights, horizontal_positions, mean_angular_velocity, mean_velocity, names, rotations,
 };
+use crate::scene::info::GRAVITY;
 use crate::scene::{Row, Unit};
 
 use super::settled::SETTLED;
@@ -106,13 +107,7 @@ pub fn parameters<M>() -> Vec<Row<M>> {
         Row::parameter(name, Unit::METRE, 1e-6..=1e3, start, &description)
     };
     vec![
-        Row::parameter(
-            "gravity",
-            Unit::METRE_PER_SECOND_SQUARED,
-            0.0..=1e4,
-            9.8,
-            "Gravity, downwards",
-        ),
+        Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 0.0..=1e4, 9.8, GRAVITY),
         Row::long_parameter("seed", 0..=i64::MAX, 1, "Seed of the order of the radii in the packing"),
         Row::parameter(
             "box.width",

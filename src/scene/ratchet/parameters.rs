@@ -1,6 +1,7 @@
 //! Parameters and inputs of the ratchet.
 
 use crate::scene::base_drive::BaseDrive;
+use crate::scene::info::GRAVITY;
 use crate::scene::{Kind, Row, Unit};
 
 /// Value of `disk.mass_rule` for equal masses; the other is equal density.
@@ -40,13 +41,7 @@ fn with_start_values_of_the_paper<M>(mut row: Row<M>) -> Row<M> {
 
 fn general<M>() -> Vec<Row<M>> {
     vec![
-        Row::parameter(
-            "gravity",
-            Unit::METRE_PER_SECOND_SQUARED,
-            1e-6..=1e4,
-            9.81,
-            "Gravity, downwards",
-        ),
+        Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 1e-6..=1e4, 9.81, GRAVITY),
         Row::long_parameter("seed", 0..=i64::MAX, 1, "Seed of the radii and the places at the start"),
         Row::parameter(
             "cell.height",

@@ -6,6 +6,7 @@ use rand::Rng;
 
 use crate::engine::wedge::WedgeFrame;
 use crate::scene::base_drive::BaseDrive;
+use crate::scene::info::GRAVITY;
 use crate::scene::{Error, Result, Row, Unit, Values};
 
 /// Largest aperture \[rad\]: a little more than 179.9 degrees. Not a rounded pi.
@@ -35,13 +36,7 @@ pub fn drive<M, D: BaseDrive>() -> Vec<Row<M>> {
 /// Wedge, disk and measurement.
 pub fn geometry<M>() -> Vec<Row<M>> {
     vec![
-        Row::parameter(
-            "gravity",
-            Unit::METRE_PER_SECOND_SQUARED,
-            1e-3..=1e4,
-            9.81,
-            "Gravity, downwards",
-        ),
+        Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 1e-3..=1e4, 9.81, GRAVITY),
         Row::long_parameter(
             "seed",
             0..=i64::MAX,

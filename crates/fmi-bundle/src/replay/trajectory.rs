@@ -1,6 +1,6 @@
 //! The reference trajectory of an FMU, read back.
 
-/// Names of the columns, the first being the time, and the rows.
+/// Names of the columns, the first being the time, and the rows; none where the model refuses its start values.
 pub struct Trajectory {
     pub names: Vec<String>,
     pub rows: Vec<Vec<f64>>,
@@ -18,8 +18,8 @@ impl Trajectory {
             let row: Result<Vec<f64>, _> = record.iter().map(str::parse).collect();
             rows.push(row.map_err(|error| error.to_string())?);
         }
-        if rows.is_empty() || names.first().is_none_or(|name| name != "time") {
-            return Err("no trajectory, since the model refuses its start values".into());
+        if names.first().is_none_or(|name| name != "time") {
+            return Err("its first column is not the time".into());
         }
         Ok(Self { names, rows })
     }

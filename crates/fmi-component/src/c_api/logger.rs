@@ -46,11 +46,10 @@ pub struct Logger {
 }
 
 impl Logger {
-    /// What `logging_on` means differs. FMI 3.0: without it nothing is logged. FMI 2.0: it is about debugging only, so that
-    /// errors and discarded steps are logged in any case.
+    /// `logging_on` is about debugging only: errors and discarded steps are logged in any case, since a status alone does not
+    /// say what to do. FMI 2.0 has it so, and so has FMI 3.0 on its main branch; 3.0.2 leaves it open.
     pub fn new(callback: Callback, logging_on: bool) -> Self {
-        let errors = logging_on || matches!(callback, Callback::Two { .. });
-        let mut on = [errors; LOG_CATEGORIES.len()];
+        let mut on = [true; LOG_CATEGORIES.len()];
         on[Category::Events as usize] = logging_on;
         Self { callback, on }
     }

@@ -306,7 +306,7 @@ impl Instance {
 #[cold]
 pub fn does_not_fit(reference: u32, value: Value) -> Error {
     Error::call(
-        format!("value reference {reference} holds {value:?}, which does not fit this type"),
+        format!("value reference {reference} holds {value}, which does not fit this type"),
         "Read it through FMI 3.0.",
     )
 }

@@ -180,17 +180,21 @@ fn a_foreign_token_is_refused_with_a_message() {
 }
 
 #[test]
+fn errors_and_discarded_steps_are_logged_whatever_logging_on_says() {
+    for client in [Client::two(), Client::silent(&token(), Importer::default())] {
+        assert_eq!(client.step(0.0, 0.1), Error);
+        assert!(client.last_message().contains("step mode"), "{:?}", client.log);
+        let client = client.ready(&[("fault.refuse_time", 0.055)]);
+        client.run((0, 5), 0.01);
+        assert_eq!(client.step(0.05, 0.01), Discard);
+        assert!(client.last_message().contains("refused at t = "), "{:?}", client.log);
+        assert_eq!(client.log.borrow().len(), 2, "the life cycle is not logged");
+    }
+}
+
+#[test]
 fn log_categories_are_respected() {
     let client = Client::silent(&token(), Importer::default());
-    assert_eq!(client.step(0.0, 0.1), Error);
-    assert!(
-        client.log.borrow().is_empty(),
-        "FMI 3.0 without logging reports nothing: {:?}",
-        client.log
-    );
-    let two = Client::two();
-    assert_eq!(two.step(0.0, 0.1), Error);
-    assert_eq!(two.log.borrow().len(), 1, "FMI 2.0 reports errors in any case");
     assert_eq!(
         unsafe { fmi3SetDebugLogging(client.pointer, 1, 0, std::ptr::null()) },
         Ok

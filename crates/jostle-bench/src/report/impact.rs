@@ -10,6 +10,7 @@ use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
 use jostle::engine::dem::{ContactLaws, SoftDiskSetup, TimeStepLimits};
 use jostle::geometry::{Disk, Wall};
+use jostle::scene::soft_disks::refused_step;
 
 use super::case::{Case, Done, Point, Stopwatch, Trouble, ladder, root_mean_square};
 use super::engines::{Located, SoftEngine, each_engine};
@@ -218,7 +219,7 @@ fn misses<E: SoftEngine>(hit: Hit, step: f64, watch: &mut Stopwatch) -> Result<(
         .measure((REPEATS * PLACES) as u32, || {
             engines.iter_mut().try_for_each(|(engine, end)| engine.advance_to(*end))
         })
-        .map_err(|breakdown| format!("{breakdown:?}"))?;
+        .map_err(|breakdown| refused_step(E::METHOD, breakdown))?;
     let outcomes = engines[..PLACES].iter().map(|(engine, _)| {
         let [vx, vy, spin] = engine.first_rate();
         hit.outcome(vy / hit.normal_velocity, (vx + RADIUS * spin) / hit.tangential_velocity)

@@ -12,6 +12,7 @@ use jostle::contact::{LinearDashpot, TangentialSpring};
 use jostle::drive::Sine;
 use jostle::engine::dem::{ContactLaws, SoftDiskSetup};
 use jostle::geometry::{Disk, Wall};
+use jostle::scene::soft_disks::refused_step;
 
 use super::case::{Case, Done, Point, Stopwatch, ladder};
 use super::engines::{SoftEngine, each_engine};
@@ -168,7 +169,7 @@ fn point<E: SoftEngine>(oscillator: Oscillator, steps: f64) -> Point {
             .measure(REPEATS as u32, || {
                 engines.iter_mut().try_for_each(|engine| engine.advance_to(end))
             })
-            .map_err(|breakdown| format!("{breakdown:?}"))?;
+            .map_err(|breakdown| refused_step(E::METHOD, breakdown))?;
         let height = engines[0].places(1)[0][1] - (oscillator.touching() - oscillator.sag());
         let error = (height - oscillator.departure(end)).abs() / AMPLITUDE;
         Ok(Done::exact([error], E::PASSES * engines[0].steps() as f64))

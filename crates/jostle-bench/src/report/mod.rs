@@ -19,13 +19,13 @@ mod wedge;
 
 use std::path::PathBuf;
 
+use crate::nearest::unknown;
 use anyhow::{Context, Result};
+use case::{Case, Done, Point, Stopwatch};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use jostle::Error;
 
 use crate::machine;
-use case::{Case, Done, Point, Stopwatch};
 
 /// CPU seconds that make one measurement, if one solution is shorter.
 const SHORTEST: f64 = 0.02;
@@ -47,7 +47,7 @@ pub struct ReportCommand {
     #[arg(long, value_name = "FOLDER", default_value = "results/report")]
     out: PathBuf,
     /// Rounds; each point is measured once in each.
-    #[arg(long, default_value = "5", value_parser = clap::value_parser!(u32).range(1..=100))]
+    #[arg(long, default_value = "5", value_parser = clap::value_parser!(u32).range(1..=100), allow_negative_numbers = true)]
     rounds: u32,
     /// Only the case of this name; may be repeated.
     #[arg(long, value_name = "CASE")]
@@ -92,9 +92,8 @@ impl ReportCommand {
     fn chosen(&self) -> Result<Vec<Case>> {
         let mut cases = all_cases();
         let names: Vec<&str> = cases.iter().map(|case| case.name).collect();
-        if let Some(unknown) = self.only.iter().find(|name| !names.contains(&name.as_str())) {
-            let allowed = format!("one of: {}", names.join(", "));
-            return Err(Error::parameter("--only", unknown, allowed, "Name one of these.").into());
+        if let Some(wrong) = self.only.iter().find(|name| !names.contains(&name.as_str())) {
+            return Err(unknown("--only", wrong, &names).into());
         }
         cases.retain(|case| self.only.is_empty() || self.only.iter().any(|name| name == case.name));
         Ok(cases)
@@ -233,14 +232,15 @@ mod tests {
         let report = ReportCommand {
             out: PathBuf::new(),
             rounds: 1,
-            only: vec!["sandpile".into()],
+            only: vec!["one_impcat".into()],
             list: false,
         };
         let message = report.execute().unwrap_err().to_string();
         assert!(
-            message.starts_with("--only = sandpile is not allowed: one of: one_impact"),
+            message.starts_with("--only = one_impcat is not allowed: one of: one_impact"),
             "{message}"
         );
+        assert!(message.contains("Did you mean one_impact?"), "{message}");
     }
 
     #[test]

@@ -14,6 +14,7 @@ use jostle::engine::dem::{ContactLaws, SoftDiskSetup, TimeStepLimits};
 use jostle::geometry::{Disk, Wall};
 use jostle::scene::Simulation;
 use jostle::scene::packing::PackingOnSine;
+use jostle::scene::soft_disks::refused_step;
 
 use super::case::{Case, Done, Point, Stopwatch, Trouble, known, ladder, root_mean_square};
 use super::engines::{Located, SoftEngine, each_engine};
@@ -206,7 +207,7 @@ fn run<E: SoftEngine>(time_step: f64, horizon: f64, watch: &mut Stopwatch) -> Re
     let mut engine = engine::<E>(start, time_step);
     watch
         .measure(1, || engine.advance_to(horizon))
-        .map_err(|breakdown| format!("{breakdown:?}"))?;
+        .map_err(|breakdown| refused_step(E::METHOD, breakdown))?;
     Ok((engine.places(start.len()), E::PASSES * engine.steps() as f64))
 }
 

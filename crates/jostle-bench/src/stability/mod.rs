@@ -15,6 +15,7 @@ use anyhow::{Context, Result};
 use clap::Args;
 use jostle::Error;
 
+use crate::nearest::unknown;
 use judge::{Judged, judge};
 use matrix::Probe;
 
@@ -32,7 +33,7 @@ pub struct Stability {
     #[arg(long, value_name = "FOLDER", default_value = "results/stability")]
     out: PathBuf,
     /// CPU seconds after which a case is judged by what it has simulated so far.
-    #[arg(long, default_value = "1", value_parser = clap::value_parser!(f64))]
+    #[arg(long, value_name = "SECONDS", default_value = "1", value_parser = positive, allow_negative_numbers = true)]
     budget: f64,
     /// Only cases whose scene, engine or dimension has this name; may be repeated.
     #[arg(long, value_name = "NAME")]
@@ -40,6 +41,13 @@ pub struct Stability {
     /// The long runs of 1e8 to 1e9 steps, bounces or impacts, and nothing else; half an hour.
     #[arg(long)]
     long: bool,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 0.0 => Ok(number),
+        _ => Err("give CPU seconds above 0, such as 1; inf for no end".into()),
+    }
 }
 
 impl Stability {
@@ -78,9 +86,8 @@ impl Stability {
             .iter()
             .flat_map(|probe| [probe.scene, probe.engine, probe.dimension])
             .collect();
-        if let Some(unknown) = self.only.iter().find(|name| !known.contains(name.as_str())) {
-            let allowed = format!("one of: {}", Vec::from_iter(known).join(", "));
-            return Err(Error::parameter("--only", unknown, allowed, "Name one of these."));
+        if let Some(wrong) = self.only.iter().find(|name| !known.contains(name.as_str())) {
+            return Err(unknown("--only", wrong, &Vec::from_iter(known)));
         }
         probes.retain(|probe| {
             let names = [probe.scene, probe.engine, probe.dimension];
@@ -107,7 +114,15 @@ mod tests {
             message.starts_with("--only = wegde is not allowed: one of: "),
             "{message}"
         );
-        assert!(message.contains("wedge"), "{message}");
+        assert!(message.contains("Did you mean wedge? Name one of these."), "{message}");
+    }
+
+    #[test]
+    fn a_budget_is_a_time_above_zero() {
+        for wrong in ["0", "-1", "NaN", "soon"] {
+            assert!(positive(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(positive("inf"), Ok(f64::INFINITY));
     }
 
     /// The corners of the matrix that are cheap. Whatever is violated is a defect; nothing may be violated here.

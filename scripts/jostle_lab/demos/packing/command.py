@@ -1,24 +1,20 @@
-"""`jostle-lab demo`, `draw` and `exchanges`."""
+"""`jostle-lab demo`, `draw` and `exchanges`. What takes long to import is imported by the command that needs it."""
 
 from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
-import polars as pl
 import typer
 
 from jostle_lab import locate, options
-from jostle_lab.coupling.master import Exchange
+from jostle_lab.coupling.exchange import Exchange
 from jostle_lab.errors import LabError
-from jostle_lab.fmu.instance import fingerprint
-from jostle_lab.fmu.packing import FmuFactory
 from jostle_lab.protocol import intervals
-from jostle_lab.protocol.experiment import Setup
-from jostle_lab.protocol.packings import Plan, run
-from jostle_lab.sensors.accelerometer import Accelerometer
 
 AMPLITUDES = "1,0.7,0.5,0.35,0.25,0.18,0.12,0.08,0.05"
 FIRST_PICTURE = "packing.png"
+LARGEST_SEED = 2**31 - 1
+"""What an integer of FMI 2.0 holds."""
 
 
 def _amplitudes(text: str) -> tuple[float, ...]:
@@ -26,6 +22,15 @@ def _amplitudes(text: str) -> tuple[float, ...]:
         return tuple(float(part) for part in text.split(","))
     except ValueError:
         raise LabError(f"--amplitudes {text} is not a list of numbers. Write, say, --amplitudes 1,0.5,0.2") from None
+
+
+def _seeds(first: int, count: int) -> tuple[int, ...]:
+    last = first + count - 1
+    if last > LARGEST_SEED:
+        raise LabError(
+            f"--first-seed = {first} gives {count} packings seeds up to {last}, the largest is {LARGEST_SEED}."
+        )
+    return tuple(range(first, first + count))
 
 
 def demo(
@@ -40,7 +45,9 @@ def demo(
     ] = 40,
     amplitudes: Annotated[str, typer.Option(help="Fractions of the full drive, separated by commas.")] = AMPLITUDES,
     packings: Annotated[int | None, typer.Option(min=1, max=1000, help="Number of packings; 2, or 25 if full.")] = None,
-    first_seed: Annotated[int, typer.Option(min=0, help="Seed of the first packing; the others follow.")] = 1,
+    first_seed: Annotated[
+        int, typer.Option(min=0, max=LARGEST_SEED, help="Seed of the first packing; the others follow.")
+    ] = 1,
     processes: Annotated[int, typer.Option(min=1, max=256, help="Packings shaken at the same time.")] = 2,
     steps_per_second: Annotated[
         int, typer.Option(help="Exchanges a second: a multiple of 400 for 80 Hz and 200 Hz.")
@@ -58,15 +65,22 @@ def demo(
     progress: options.ProgressOption = True,
 ) -> None:
     """Shake packings with decreasing amplitude; write CSV files, pictures and a page of numbers."""
-    path, chosen = locate.fmu("packing.fmu", "packing", fmu), options.parameters(parameters)
+    from jostle_lab.fmu.instance import fingerprint
+    from jostle_lab.fmu.packing import FmuFactory
+    from jostle_lab.protocol.experiment import Setup
+    from jostle_lab.protocol.packings import Plan, run
+    from jostle_lab.sensors.accelerometer import Accelerometer
+
+    chosen = options.parameters(parameters, seed="--first-seed")
+    path = locate.fmu("packing.fmu", "packing", fmu)
     schedule = intervals.thesis() if full else intervals.scaled_down(_amplitudes(amplitudes), seconds_per_amplitude)
     accelerometer = Accelerometer(bandwidth=sensor_bandwidth, resolution=sensor_resolution)
     setup = Setup(schedule, steps_per_second, exchange, full_drive_gamma=full_drive_gamma, accelerometer=accelerometer)
-    count = packings if packings is not None else (25 if full else 2)
+    seeds = _seeds(first_seed, packings if packings is not None else (25 if full else 2))
     factory = FmuFactory(str(path), chosen)
     factory(first_seed).close()  # a wrong file or parameter is reported here, before any process starts
     labels = (("FMU binary", fingerprint(path)), *((name, f"{value:g}") for name, value in chosen))
-    plan = Plan(results, tuple(range(first_seed, first_seed + count)), setup, processes, progress, labels)
+    plan = Plan(results, seeds, setup, processes, progress, labels)
     (results / FIRST_PICTURE).unlink(missing_ok=True)
     run(plan, factory, lambda: _draw_first(results))
     draw(results)
@@ -76,19 +90,19 @@ def _draw_first(results: Path) -> None:
     """Draw one picture as soon as one packing has gone through one interval."""
     if (results / FIRST_PICTURE).exists():
         return
-    from jostle_lab.demos.packing import figures  # noqa: PLC0415 - not needed before, and its import takes a second
-    from jostle_lab.protocol.results import Results  # noqa: PLC0415
+    from jostle_lab.demos.packing import figures
+    from jostle_lab.protocol.results import Results
 
     # Another process may be replacing the tables at this moment: then the next interval gives the picture.
-    with suppress(LabError, OSError, pl.exceptions.PolarsError):
+    with suppress(LabError, OSError):
         path = figures.draw(FIRST_PICTURE, Results(results, unfinished=True))
         typer.echo(f"\n{path}: first picture, drawn after the strongest drive and again at the end")
 
 
 def draw(results: options.ResultsOption = Path("results")) -> None:
     """Draw the pictures and write the page of numbers of a results folder again."""
-    from jostle_lab.demos.packing import figures, numbers  # noqa: PLC0415
-    from jostle_lab.protocol.results import Results  # noqa: PLC0415
+    from jostle_lab.demos.packing import figures, numbers
+    from jostle_lab.protocol.results import Results
 
     found = Results(results)
     for path in [*figures.draw_all(found), numbers.write_report(found)]:
@@ -102,7 +116,8 @@ def exchanges(
     parameters: options.SetOption = None,
 ) -> None:
     """Compare the coupling error and the cost of the three orders of exchange for several step sizes."""
-    from jostle_lab.coupling.compare import compare_exchanges  # noqa: PLC0415
+    from jostle_lab.coupling.compare import compare_exchanges
+    from jostle_lab.fmu.packing import FmuFactory
 
-    path = locate.fmu("packing.fmu", "packing", fmu)
-    typer.echo(compare_exchanges(FmuFactory(str(path), options.parameters(parameters)), seconds, amplitude))
+    path, chosen = locate.fmu("packing.fmu", "packing", fmu), options.parameters(parameters)
+    typer.echo(compare_exchanges(FmuFactory(str(path), chosen), seconds, amplitude))

@@ -12,10 +12,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
-from jostle_lab.plots.style import SENSE, WIDTH, house_style
+from jostle_lab.plots.style import SENSE, WIDTH, house_style, save
 from jostle_lab.protocol.results import Results
 from jostle_lab.sensors.spectral_amplitude import spectral_amplitude
 from jostle_lab.statistics.rotation import RPM, nearest_neighbours_regression
+
+GAMMA_DRAWN = 2.0
+"""Of the picture of a packing, as near as there is one."""
 
 
 def draw_all(results: Results) -> list[Path]:
@@ -27,7 +30,7 @@ def draw(name: str, results: Results) -> Path:
     """Draw one of `PICTURES`; return its path."""
     path = results.folder / name
     with house_style():
-        PICTURES[name](results).savefig(path)
+        save(PICTURES[name](results), path)
     return path
 
 
@@ -77,9 +80,9 @@ def angular_paths(results: Results) -> Figure:
 
 
 def packing(results: Results) -> Figure:
-    """The first packing at the amplitude nearest to half drive, disks coloured by the sense of rotation."""
+    """The first packing at the Gamma nearest to `GAMMA_DRAWN`, disks coloured by the sense of rotation."""
     rows = results.amplitudes_of(results.seeds[0])
-    row = min(rows, key=lambda r: abs(r["gamma_true"] - 2.0))
+    row = min(rows, key=lambda r: abs(r["gamma_true"] - GAMMA_DRAWN))
     disks = results.disks_of(results.seeds[0], row["amplitude"])
     velocities = np.array([disk["mean_velocity"] for disk in disks]) / RPM
     norm = _sense_norm(velocities)

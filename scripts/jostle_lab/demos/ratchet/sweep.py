@@ -26,7 +26,7 @@ from jostle_lab.loudspeaker.model import Loudspeaker
 from jostle_lab.plots.curves import velocity_axes
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.statements import Product, Statement, verdict
-from jostle_lab.statistics.estimates import Estimate, zero_crossings
+from jostle_lab.statistics.estimates import Estimate, sign_changes, zero_crossings
 
 STEP = 1.0 / 4096.0
 """Of the exchange [s]: exact in binary, a hundred and more to a period."""
@@ -207,7 +207,7 @@ def statements(found: Sweep, plan: Plan) -> list[Statement]:
         Statement(
             "F Fig. 10, Gamma held instead of A",
             "the flow reverses as the frequency is swept",
-            f"sign changes at {', '.join(map(str, crossings)) or 'none'} Hz; [cm/s] by frequency [Hz]: {flow}",
+            f"{sign_changes(crossings, 'Hz')}; [cm/s] by frequency [Hz]: {flow}",
             verdict(bool(crossings)),
         ),
     ]

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from jostle_lab.demos.torque.controller import END, Plant, reference_at
 from jostle_lab.demos.torque.record import BAND, Record, qualities, run
 from jostle_lab.fmu.disk_on_two_supports import DiskFmu
-from jostle_lab.plots.style import WIDTH, house_style
+from jostle_lab.plots.style import WIDTH, house_style, save
 from jostle_lab.tables import Row, markdown_table, write_table
 
 
@@ -82,6 +82,7 @@ def page(records: Sequence[Record], sample: float) -> str:
 
 def demonstrate(fmi2: Path, fmi3: Path, results: Path, sample: float, parameters: dict[str, float]) -> list[Path]:
     """Run all couplings; write torque.csv, torque.png and torque.md; return their paths."""
+    results.mkdir(parents=True, exist_ok=True)  # before the work, which would be lost
     couplings = [
         ("FMI 2.0, plain steps", fmi2, False, False),
         ("FMI 3.0, plain steps", fmi3, False, False),
@@ -93,7 +94,6 @@ def demonstrate(fmi2: Path, fmi3: Path, results: Path, sample: float, parameters
         with DiskFmu(path, parameters, events) as fmu:
             plant = Plant.of(fmu)
             records.append(run(fmu, name, sample, 1e-3, unstick))
-    results.mkdir(parents=True, exist_ok=True)
     table, picture, text = results / "torque.csv", results / "torque.png", results / "torque.md"
     rows: list[Row] = [
         {"coupling": r.name, "time": t, "velocity": v, "torque": m, "left": int(s[0]), "right": int(s[1])}
@@ -102,6 +102,6 @@ def demonstrate(fmi2: Path, fmi3: Path, results: Path, sample: float, parameters
     ]
     write_table(table, rows)
     with house_style():
-        draw(records, plant).savefig(picture)
+        save(draw(records, plant), picture)
     text.write_text(page(records, sample))
     return [table, picture, text]

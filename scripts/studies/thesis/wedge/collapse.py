@@ -9,7 +9,7 @@ from jostle_lab.plots.curves import draw_curve
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Statement, verdict
-from jostle_lab.statistics.estimates import Estimate, chi_square, zero_crossings
+from jostle_lab.statistics.estimates import Estimate, chi_square, sign_changes, zero_crossings
 from studies.thesis.wedge.curves import QUICK_TILTS, TILTS, Curve, Effort, Wedge, curves, effort, tilt_axes
 
 GAMMAS = (1.0, 10.0, 100.0)
@@ -89,7 +89,7 @@ def statements(found: list[Curve]) -> list[Statement]:
         Statement(
             "6.2, 6.4",
             "the sense of rotation changes with tilt",
-            f"sign changes at {', '.join(map(str, crossings)) or 'none'} degrees; largest "
+            f"{sign_changes(crossings, 'degrees')}; largest "
             f"{max(common, key=lambda c: c.mean)}, smallest {min(common, key=lambda c: c.mean)}",
             verdict(bool(crossings)),
         ),

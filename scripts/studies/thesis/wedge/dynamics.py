@@ -7,7 +7,7 @@ from jostle_lab.plots.curves import draw_curve
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Statement, Verdict, verdict
-from jostle_lab.statistics.estimates import Estimate, chi_square, zero_crossings
+from jostle_lab.statistics.estimates import Estimate, chi_square, places, zero_crossings
 from studies.thesis.wedge.curves import RADIUS, UNOBSERVED, Curve, Wedge, tilt_axes
 
 SYMBOLS = {0.9: "+", 1.0: "x", 1.2: (8, 2, 0), 1.5: "s", 2.0: "s", 3.0: "o"}
@@ -111,7 +111,7 @@ def statements(found: dict[float, Curve]) -> list[Statement]:
     zero = [found[g].at(0.0) for g in found]
     zero_chi, zero_p = chi_square([p.mean for p in zero], [max(p.error, 1e-9) for p in zero])
     crossings = {g: zero_crossings(found[g].tilts, found[g].points) for g in strong}
-    crossing_text = "; ".join(f"Gamma = {g:g}: {', '.join(map(str, c)) or 'none'}" for g, c in crossings.items())
+    crossing_text = "; ".join(f"Gamma = {g:g}: {places(c, '')}" for g, c in crossings.items())
     fastest = {g: max(found[g].points, key=lambda p: abs(p.mean)) for g in strong}
     return [
         Statement(

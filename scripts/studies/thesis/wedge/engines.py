@@ -7,7 +7,7 @@ from jostle_lab.plots.curves import draw_curve
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Statement, Verdict, verdict
-from jostle_lab.statistics.estimates import Estimate, chi_square, zero_crossings
+from jostle_lab.statistics.estimates import Estimate, chi_square, places, zero_crossings
 from studies.thesis.wedge.collapse import average
 from studies.thesis.wedge.curves import QUICK_TILTS, TILTS, Curve, Effort, Wedge, curves, effort, tilt_axes
 from studies.thesis.wedge.dynamics import molecular_curves
@@ -105,14 +105,14 @@ def statements(the_map: Curve, moving: dict[float, Curve], soft: dict[float, Cur
                 Verdict.AGREES if p_value > 0.01 else (Verdict.PARTLY if p_moving > 0.01 else Verdict.DISAGREES),
             )
         )
-    places = {f"MD, Gamma = {g:g}": zero_crossings(c.tilts, c.points) for g, c in soft.items()}
-    places["map"] = zero_crossings(the_map.tilts, the_map.points)
+    crossings = {f"MD, Gamma = {g:g}": zero_crossings(c.tilts, c.points) for g, c in soft.items()}
+    crossings["map"] = zero_crossings(the_map.tilts, the_map.points)
     found.append(
         Statement(
             "6.2",
             "the sense of rotation changes with tilt",
-            "; ".join(f"{name}: {', '.join(map(str, c)) or 'none'} degrees" for name, c in places.items()),
-            verdict(all(places.values())),
+            "; ".join(f"{name}: {places(c, 'degrees')}" for name, c in crossings.items()),
+            verdict(all(crossings.values())),
         )
     )
     return found

@@ -8,7 +8,7 @@ from jostle_lab.plots.curves import draw_curve, shades
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Statement, Verdict, verdict
-from jostle_lab.statistics.estimates import Estimate, zero_crossings
+from jostle_lab.statistics.estimates import Estimate, places, zero_crossings
 from studies.thesis.wedge.curves import QUICK_TILTS, TILTS, Curve, Wedge, curves, effort, other_law, tilt_axes
 
 FRICTIONS = {0.001: "+", 0.005: "x", 0.01: (8, 2, 0), 0.03: "s", 0.05: "s", 0.1: "o", 0.15: "o", 0.3: "^", 1.0: "^"}
@@ -64,7 +64,7 @@ def draw(found: Curves) -> Figure:
 def statements(found: Curves) -> list[Statement]:
     """What P 6.3.4 says of this figure."""
     crossings = {mu: zero_crossings(curve.tilts, curve.points) for mu, curve in found.items()}
-    text = "; ".join(f"mu = {mu:g}: {', '.join(map(str, c)) or 'none'}" for mu, c in crossings.items())
+    text = "; ".join(f"mu = {mu:g}: {places(c, '')}" for mu, c in crossings.items())
     slippery = [crossings[mu] for mu in found if mu <= 0.1]
     moves = all(slippery) and all(a[0].mean > b[0].mean for a, b in pairwise(slippery) if a and b)
     rough = {mu: min(found[mu].points, key=lambda p: p.mean / p.error) for mu in found if mu > 0.1}

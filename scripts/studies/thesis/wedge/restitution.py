@@ -9,7 +9,7 @@ from jostle_lab.plots.curves import draw_curve, shades
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Statement, Verdict, verdict
-from jostle_lab.statistics.estimates import Estimate, zero_crossings
+from jostle_lab.statistics.estimates import Estimate, places, zero_crossings
 from studies.thesis.wedge.curves import QUICK_TILTS, TILTS, Curve, Wedge, curves, effort, tilt_axes
 
 RESTITUTIONS = {0.5: "+", 0.7: "x", 0.9: (8, 2, 0), 1.0: "s"}
@@ -71,7 +71,7 @@ def statements(found: Curves) -> list[Statement]:
         Statement(
             "6.2, 6.8",
             "the sense of rotation changes with tilt",
-            "; ".join(f"e_n = {e:g}: {', '.join(map(str, c)) or 'none'} degrees" for e, c in crossings.items()),
+            "; ".join(f"e_n = {e:g}: {places(c, 'degrees')}" for e, c in crossings.items()),
             verdict(any(crossings.values())),
         ),
         Statement(

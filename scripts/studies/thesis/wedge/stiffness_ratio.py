@@ -7,7 +7,7 @@ from jostle_lab.plots.curves import draw_curve, shades
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Statement, Verdict, verdict
-from jostle_lab.statistics.estimates import Estimate, chi_square, pooled, zero_crossings
+from jostle_lab.statistics.estimates import Estimate, chi_square, places, pooled, zero_crossings
 from studies.thesis.wedge.curves import QUICK_TILTS, TILTS, Curve, Effort, Wedge, curves, effort, other_law, tilt_axes
 
 RATIOS = {0.01: "^", 0.1: "D", 1.0: "s", 10.0: "s", 100.0: "o"}
@@ -112,7 +112,7 @@ def statements(found: Curves, limit: Curve) -> list[Statement]:
         Statement(
             "6.2",
             "the sense of rotation changes with tilt",
-            "; ".join(f"kappa = {k:g}: {', '.join(map(str, c)) or 'none'} degrees" for k, c in crossings.items()),
+            "; ".join(f"kappa = {k:g}: {places(c, 'degrees')}" for k, c in crossings.items()),
             verdict(any(crossings.values())),
         ),
         Statement(

@@ -5,7 +5,8 @@ import pytest
 from fake_grains import SpringLump
 from scipy.integrate import solve_ivp
 
-from jostle_lab.coupling.master import Coupling, Exchange
+from jostle_lab.coupling.exchange import Exchange
+from jostle_lab.coupling.master import Coupling
 from jostle_lab.errors import LabError
 from jostle_lab.loudspeaker.model import Loudspeaker
 

@@ -9,6 +9,7 @@ import pytest
 from conftest import PROGRAM
 from scipy.integrate import solve_ivp
 
+from jostle_lab.demos.ratchet.command import ratchet_demo
 from jostle_lab.demos.ratchet.controller import GammaController
 from jostle_lab.demos.ratchet.sweep import Plan, make, sweep
 from jostle_lab.errors import LabError
@@ -116,3 +117,5 @@ def test_wrong_plans_and_files_are_refused(tmp_path: Path) -> None:
         sweep(tmp_path / "none.fmu", Plan(frequencies=(1.0,)), False)
     with pytest.raises(LabError, match="seconds at each frequency"):
         sweep(tmp_path / "none.fmu", Plan(seconds=math.nan), False)
+    with pytest.raises(LabError, match=r"--low = 20 and --high = 20 are one frequency"):
+        ratchet_demo(tmp_path / "none.fmu", low=20.0, high=20.0)

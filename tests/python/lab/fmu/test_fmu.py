@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
-from jostle_lab.coupling.master import Coupling, Exchange
+from jostle_lab.coupling.exchange import Exchange
+from jostle_lab.coupling.master import Coupling
 from jostle_lab.errors import LabError
 from jostle_lab.fmu.instance import fingerprint
 from jostle_lab.fmu.packing import FmuFactory, FmuGrains
@@ -160,10 +161,32 @@ def test_errors_name_file_variable_and_remedy(fmu3: Path, tmp_path: Path):
     (tmp_path / "broken.fmu").write_text("not a zip")
     with pytest.raises(LabError, match=r"broken.fmu is not a readable FMU"):
         FmuFactory(str(tmp_path / "broken.fmu"))(1)
+    with pytest.raises(LabError, match=r"broken.fmu is not a readable FMU"):
+        fingerprint(tmp_path / "broken.fmu")
     with pytest.raises(LabError, match=r"has no variable contact.glue"):
         FmuGrains(fmu3, {"contact.glue": 1.0})
     with pytest.raises(LabError, match=r"contact\.friction"):
         FmuGrains(fmu3, {"contact.friction": -1.0})
+
+
+def test_what_the_fmu_says_reaches_the_user(fmu: Path):
+    """Neither fmpy nor the laboratory switches the log on."""
+    with pytest.raises(LabError, match=r"contact\.friction = -1 is not allowed: a finite number from 0") as refused:
+        FmuGrains(fmu, {"contact.friction": -1.0})
+    assert ".." not in str(refused.value)
+    with closing(FmuGrains(fmu)) as grains, pytest.raises(LabError, match=r"status 2.*step refused at t = "):
+        grains.step(0.0, 0.0, STEP)
+        grains.step(0.05, 0.0, STEP)  # 50 mm at once
+
+
+def test_a_name_that_is_almost_right_is_proposed(fmu3: Path):
+    with pytest.raises(LabError, match=r"no variable friction\. Did you mean contact\.friction\?"):
+        FmuGrains(fmu3, {"friction": 0.1})
+
+
+def test_a_seed_is_not_set_beside_that_of_the_packing():
+    with pytest.raises(LabError, match="seed cannot be set here"):
+        FmuFactory("any.fmu", (("seed", 3.0),))
 
 
 def test_base_at_nan_is_an_error_not_a_crash(fmu: Path):

@@ -11,6 +11,7 @@ from jostle_lab.coupling.compare import compare_exchanges
 from jostle_lab.demos.packing.figures import draw, draw_all
 from jostle_lab.demos.packing.numbers import write_report
 from jostle_lab.errors import LabError
+from jostle_lab.files import replace_text
 from jostle_lab.protocol import intervals as protocol
 from jostle_lab.protocol.experiment import Setup
 from jostle_lab.protocol.packings import Plan, run
@@ -44,6 +45,8 @@ def test_protocol_refuses_what_cannot_be():
         protocol.scaled_down((1.5,), 20)
     with pytest.raises(LabError, match="No amplitudes"):
         protocol.scaled_down((), 20)
+    with pytest.raises(LabError, match=r"amplitude 0\.5 is given twice"):
+        protocol.scaled_down((1.0, 0.5, 0.5), 20)
 
 
 def test_setup_refuses_rates_that_do_not_fit():
@@ -113,6 +116,26 @@ def test_finished_packings_are_not_run_again(finished):
 def test_folder_of_other_settings_is_refused(finished):
     with pytest.raises(LabError, match=r"holds results of other settings.*remove this one"):
         run(plan(finished, labels=(("contact.friction", "0.2"),)), make_turning_lump)
+
+
+def test_a_damaged_description_is_named_with_the_remedy(tmp_path):
+    (tmp_path / "run.json").write_text('{"setup": ')
+    with pytest.raises(LabError, match=r"run.json is damaged: .* Remove .* to start afresh"):
+        run(plan(tmp_path), make_turning_lump)
+    (tmp_path / "packings/seed-0001").mkdir(parents=True)
+    (tmp_path / "packings/seed-0001/packing.json").write_text("{}")
+    with pytest.raises(LabError, match=r"run.json is damaged: .* Remove it and run `jostle-lab demo"):
+        Results(tmp_path)
+
+
+def test_a_file_is_replaced_whole_or_not_at_all(tmp_path):
+    path = tmp_path / "run.json"
+    replace_text(path, "first")
+    (tmp_path / "_run.json.draft").symlink_to("/dev/full")
+    with pytest.raises(OSError, match="No space left"):
+        replace_text(path, "second")
+    assert path.read_text() == "first"
+    assert [file.name for file in tmp_path.iterdir()] == ["run.json"]
 
 
 def test_same_seed_gives_the_same_files(finished, tmp_path):

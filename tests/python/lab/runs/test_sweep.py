@@ -16,8 +16,9 @@ from jostle_lab.errors import LabError
 from jostle_lab.locate import fingerprint
 from jostle_lab.runs.command import _axis
 from jostle_lab.runs.grid import Grid, make_grid, read_grid
+from jostle_lab.runs.limits import parameters, refuse_what_no_run_takes
 from jostle_lab.runs.run import Run
-from jostle_lab.runs.store import MANY_PARTS, Store
+from jostle_lab.runs.store import DRAFT, MANY_PARTS, Store
 from jostle_lab.runs.sweep import Sweep, Workers
 from jostle_lab.runs.worker import DONE, FAILED, Program
 
@@ -66,6 +67,9 @@ def test_a_grid_is_every_combination_with_every_seed(tmp_path: Path) -> None:
         ({"scene": "ratchet", "seconds": -1}, "not a time above 0"),
         ({"scene": "ratchet", "seconds": float("nan")}, "not a finite number"),
         ({"scene": "ratchet", "seconds": 1, "speed": 2}, "speed is not known"),
+        ({"scene": "ratchet", "seconds": 1, "sceen": 2}, "Did you mean scene"),
+        ({"scene": "ratchet", "seconds": 1, "set": {"seed": 3}}, "seed is neither set nor"),
+        ({"scene": "ratchet", "seconds": 1, "grid": {"seed": [3]}}, "seed is neither set nor"),
         ({"scene": "ratchet", "seconds": 1, "seeds": 0}, "seeds has no values"),
         ({"scene": "ratchet", "seconds": 1, "seeds": [1.5]}, "seeds"),
         ({"scene": "ratchet", "seconds": 1, "grid": {"gravity": []}}, "gravity has no values"),
@@ -89,6 +93,42 @@ def test_axes_of_the_command_line() -> None:
             _axis(wrong)
 
 
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--grid", "foo=1:2:3"], "foo is no parameter of ratchet with the engine event-driven and the drive sine"),
+        (["--grid", "drive.frequncy=15,20"], "Did you mean drive.frequency?"),
+        (["--set", "frequency=15"], "Did you mean drive.frequency?"),
+        (["--grid", "drive.frequency=15,-1"], "drive.frequency = -1 is outside [0, 1e+06]"),
+        (["--grid", "disks=10,9999999"], "--disks = 9999999 is not allowed: from 1 to"),
+        (["--engine", "event-drvien"], "Did you mean event-driven?"),
+        (["--drive", "wind"], "one of: input, sine"),
+        (["--grid", "seed=1,2"], "seed is neither set nor on the grid"),
+        (["--set", "gravity=1", "--set", "gravity=2"], "--set gravity is given more than once"),
+        (["--grid", "gravity=1", "--grid", "gravity=2"], "--grid gravity is given more than once"),
+    ],
+)
+def test_a_grid_that_every_run_would_refuse_is_refused_once(
+    options: list[str], message: str, jostle: Path, tmp_path: Path
+) -> None:
+    words = [sys.executable, "-m", "jostle_lab", "sweep", "--scene", "ratchet", "--seconds", "0.01", *options]
+    words += ["--program", str(jostle), "--results", str(tmp_path / "sweep"), "--no-progress"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.count(message) == 1, done.stderr
+    assert not (tmp_path / "sweep").exists()  # nothing was run
+
+
+def test_ranges_are_those_of_the_program(jostle: Path) -> None:
+    (run,) = Grid("packing", 1.0).runs()
+    known = parameters(jostle, run)
+    assert known["contact.friction"] == (0.0, 1e6)
+    assert "disk.angle[1]" not in known
+    refuse_what_no_run_takes(jostle, [run])
+    (hard,) = Grid("packing", 1.0, engine="event-driven").runs()
+    assert parameters(jostle, hard)["base.model"] == (1, 2)  # an enumeration, by number
+
+
 def test_the_last_row_of_a_run_counts_and_columns_may_differ(tmp_path: Path) -> None:
     store = Store(tmp_path)
     assert store.rows() == {}
@@ -108,11 +148,24 @@ def test_many_parts_are_joined_and_one_sweep_writes_at_a_time(tmp_path: Path) ->
     store = Store(tmp_path)
     for number in range(MANY_PARTS + 1):
         store.append([{"key": str(number)}])
+    (tmp_path / "lock").touch()  # of an earlier version
     with store.writing():
         assert len(list(tmp_path.glob("*.parquet"))) == 1
+        others = {path.name for path in tmp_path.iterdir() if path.suffix != ".parquet"}
+        assert others == {"_lock"}  # readers of Parquet pass over what begins with an underscore
         with pytest.raises(LabError, match="Another sweep"), Store(tmp_path).writing():
             pass
     assert len(store.rows()) == MANY_PARTS + 1
+
+
+def test_a_full_disk_is_told_and_leaves_the_parts(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    store.append([{"key": "a"}])
+    (tmp_path / DRAFT).symlink_to("/dev/full")
+    with pytest.raises(LabError, match=r"No space left.*Make room"):
+        store.append([{"key": "b"}])
+    assert list(store.rows()) == ["a"]
+    assert [path.name for path in tmp_path.iterdir()] == ["part-00000001.parquet"]
 
 
 def test_a_broken_part_is_named(tmp_path: Path) -> None:

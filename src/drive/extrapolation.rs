@@ -151,7 +151,9 @@ impl InputHistory {
 
     /// Whether the input was expected to move on until `time` \[s\] by half at least of what it moved between the last samples.
     fn was_to_move_on(&self, time: f64) -> bool {
-        let [.., before, last] = self.samples() else { return false };
+        let [.., before, last] = self.samples() else {
+            return false;
+        };
         let moved = (last.values[0] - before.values[0]).abs();
         let expected = self.extrapolate(time, Degree::Automatic);
         expected.is_some_and(|expected| (expected.at(time)[0] - last.values[0]).abs() > 0.5 * moved && moved > 0.0)

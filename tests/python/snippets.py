@@ -11,7 +11,7 @@ from pathlib import Path
 from conftest import ROOT
 
 RELEASE = Path(os.environ.get("CARGO_TARGET_DIR", "target")) / "release"
-LANGUAGES = {"python", "c", "sh", "rust", "toml"}
+LANGUAGES = {"python", "c", "cpp", "sh", "rust", "toml"}
 """Languages whose blocks a test runs. Other blocks are text."""
 
 

@@ -81,11 +81,31 @@ def test_libcosim(fmu2: Path, reference: Printed):
     check(python(snippet(CONTROL, "python", "libcosim")), reference)
 
 
-def test_shaker_in_a_closed_loop_moves_the_base(fmu3: Path):
+def test_controller_holds_gamma_of_a_loaded_shaker_and_its_cpp_twin_to_the_last_digit(fmu3: Path):
     assert fmu3.is_file()
-    output = python(snippet(CONTROL, "python", "shaker"))
-    found = re.search(r"largest velocity of the base: (\S+) m/s", output)
-    assert found and 0.01 < float(found[1]) < 0.1, output
+    output = python(snippet(CONTROL, "python", "gamma"))
+    found = re.search(r"^Gamma (\S+) in the mean, off by (\S+) at most, with \S+ N$", output)
+    assert found, output
+    assert float(found[1]) == pytest.approx(2.0, abs=0.005)
+    assert float(found[2]) < 0.15
+    (BUILD / "gamma.cpp").write_text(snippet(CONTROL, "cpp", "gamma"))
+    assert shell(snippet(CONTROL, "sh", "gamma-cpp")) == output
+
+
+def test_whole_steps_are_taken_back_and_done_in_halves(fmu3: Path):
+    assert fmu3.is_file()
+    output = python(snippet(CONTROL, "python", "states"))
+    found = re.search(r"differ by (\S+) N in the mean force", output)
+    assert found and 0.0 < float(found[1]) < 0.5, output
+
+
+def test_two_packings_and_a_disk_on_threads_are_those_of_one_thread(jostle: Path, fmu3: Path):
+    assert fmu3.is_file()
+    run(str(jostle), "fmu", "three_disk", "--fmi", "3", "--out", str(BUILD / "three_disk.fmu"))
+    output = python(snippet(CONTROL, "python", "two"))
+    found = re.search(r"^mean load (\S+) N, angle (\S+) rad; the same bits without threads: True$", output)
+    assert found, output
+    assert float(found[1]) == pytest.approx(-2 * WEIGHT, rel=0.02)
 
 
 def test_discarded_step_leaves_an_instance_that_goes_on(fmu3: Path):

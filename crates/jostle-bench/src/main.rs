@@ -4,8 +4,8 @@
 
 mod csv_file;
 mod machine;
-mod real_time;
 mod nearest;
+mod real_time;
 mod report;
 mod stability;
 

@@ -194,16 +194,23 @@ fn a_crest_between_two_samples_is_followed() {
     for samples in [26, 30, 34, 50] {
         let motion = |number: u32| {
             // A half step off, so that crests are between samples; rounded, so that these are equal bit by bit.
-            let [value, ..] = sine((f64::from(number) + 0.5) / f64::from(samples) + if samples % 4 == 2 { 0.0 } else { 0.25 });
+            let [value, ..] =
+                sine((f64::from(number) + 0.5) / f64::from(samples) + if samples % 4 == 2 { 0.0 } else { 0.25 });
             [(value * 1e12).round() / 1e12, 0.0, 0.0]
         };
         let mut history = InputHistory::default();
         for number in 0..4 * samples {
             let time = f64::from(number);
             history.record(sample(time, motion(number), 1));
-            let found = history.extrapolate(time + 1.0, Degree::Automatic).expect("there are samples").at(time + 1.0)[0];
+            let found = history
+                .extrapolate(time + 1.0, Degree::Automatic)
+                .expect("there are samples")
+                .at(time + 1.0)[0];
             let error = (found - motion(number + 1)[0]).abs();
-            assert!(number < 2 * samples || error < 2e-3, "{samples} samples, number {number}: {error:e}");
+            assert!(
+                number < 2 * samples || error < 2e-3,
+                "{samples} samples, number {number}: {error:e}"
+            );
         }
     }
 }

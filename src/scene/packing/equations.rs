@@ -13,9 +13,9 @@ relative velocities of the surfaces:</p>
 centres; at a wall &lambda; = <i>R</i> &theta; + <i>d</i> with <i>d</i> the place along the wall</li>
 <li>tangential force: &tau; = &minus;&kappa; <i>k<sub>n</sub></i> (&lambda; &minus; &lambda;*); &lambda;* is &lambda; at
 the instant of touch and slips so that |&tau;| &le; &mu; <i>N</i></li>
-<li>base driven by the inputs: between two communication points a distance <i>h</i> apart it moves on the cubic that
-continues its displacement and velocity and ends at <code>base.displacement</code> + <i>h</i>
-<code>base.velocity</code> with velocity <code>base.velocity</code></li>
+<li>base driven by the inputs: during a communication step it moves on the quintic that continues its displacement,
+velocity and acceleration; the quintic ends where the polynomial leads that extrapolates the last values of
+<code>base.displacement</code>, <code>base.velocity</code> and <code>base.acceleration_input</code>, of degree five at most</li>
 <li>base driven as a sine: <i>y</i> = <i>A</i> sin(2 &pi; <i>f</i> <i>t</i> + <i>&phi;</i>);
 &Gamma; = <i>A</i> (2 &pi; <i>f</i>)<sup>2</sup> / <i>g</i></li>
 </ul>

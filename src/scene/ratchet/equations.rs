@@ -19,9 +19,9 @@ horizontal extent of the left side; the tip is rounded by an arc tangent to both
 an exact time average. Its standard error is that of up to 64 batches of the same duration, its spread the standard
 deviation over the disks of their own averages; <code>base.mean_power</code> is averaged over the same time</li>
 <li><code>layers</code>: <i>n</i> = <i>N</i>/<i>k</i>, <i>k</i> = width of the cell over 2 <code>disk.radius_min</code></li>
-<li>base driven by the inputs: between two communication points a distance <i>H</i> apart it moves on the cubic that
-continues its displacement and velocity and ends at <code>base.displacement</code> + <i>H</i>
-<code>base.velocity</code> with velocity <code>base.velocity</code></li>
+<li>base driven by the inputs: during a communication step it moves on the quintic that continues its displacement,
+velocity and acceleration; the quintic ends where the polynomial leads that extrapolates the last values of
+<code>base.displacement</code>, <code>base.velocity</code> and <code>base.acceleration_input</code>, of degree five at most</li>
 <li>base driven as a sine: <i>y</i> = <i>A</i> sin(2 &pi; <i>f</i> <i>t</i> + <i>&phi;</i>);
 &Gamma; = <i>A</i> (2 &pi; <i>f</i>)<sup>2</sup> / <i>g</i></li>
 </ul>

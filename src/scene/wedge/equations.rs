@@ -26,8 +26,10 @@ leaves slower than <code>collision.minimum_normal_velocity</code></li>
 &tau; = &minus;&kappa; <i>k<sub>n</sub></i> (&lambda; &minus; &lambda;*) with |&tau;| &le; &mu; <i>N</i>; velocity
 Verlet</li>
 <li>base driven as a sine: <i>y</i> = <i>A</i> sin(2 &pi; <i>f</i> <i>t</i> + <i>&phi;</i>), &omega;<sub>b</sub> = 2
-&pi; <i>f</i>; by the inputs: the cubic that continues its displacement and velocity to
-<code>base.displacement</code> + <i>h</i> <code>base.velocity</code> after the step <i>h</i></li>
+&pi; <i>f</i></li>
+<li>base driven by the inputs: during a communication step it moves on the quintic that continues its displacement,
+velocity and acceleration; the quintic ends where the polynomial leads that extrapolates the last values of
+<code>base.displacement</code>, <code>base.velocity</code> and <code>base.acceleration_input</code>, of degree five at most</li>
 <li>scaled angular velocity: <i>R</i> &lang;&omega;&rang; / (<i>A</i> &omega;<sub>b</sub>), the exact mean over time
 since <code>measure.start</code>; its standard error is the scatter of 32 to 64 batches of equal duration</li>
 </ul>

@@ -252,7 +252,7 @@ fn grains_below_gravity_stay_on_the_base() {
 fn hard_disks_settle_without_overlaps() {
     let height = |settled: f64| {
         let packing = simulation_of::<HardPackingOnInput>(60, &[("initial.settled", settled)]);
-        assert!(packing.warnings().is_empty());
+        assert_eq!(packing.warnings(), []);
         let [x, y, radius] = ["x", "y", "radius"].map(|what| -> Vec<f64> {
             let names = (1..=60).map(|disk| format!("disk.{what}[{disk}]"));
             names.map(|name| packing.real(&name).unwrap()).collect()

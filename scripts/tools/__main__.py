@@ -4,6 +4,7 @@ COMMANDS = (
     "tools.work_precision.work_precision_cli:work_precision",
     "tools.stability_page:stability",
     "tools.real_time_page:real_time",
+    "tools.base_on_inputs:base_on_inputs",
     "tools.instruction_counts:instruction_counts",
     "tools.import_circles:import_circles",
     "tools.peers:peers",

@@ -6,8 +6,10 @@ from pathlib import Path
 import pytest
 
 from jostle_lab.errors import LabError
-from tools import real_time_page, stability_page
+from tools import base_on_inputs, real_time_page, stability_page
 from tools.paths import (
+    BASE_ON_INPUTS,
+    BASE_ON_INPUTS_PAGE,
     BINARIES,
     BINARIES_PAGE,
     INSTRUCTION_COUNTS,
@@ -39,6 +41,11 @@ def test_committed_stability_page_is_that_of_the_committed_data() -> None:
 def test_committed_page_of_the_time_of_a_step_is_that_of_the_committed_data() -> None:
     written = real_time_page.page(REAL_TIME)
     assert written == REAL_TIME_PAGE.read_text(), "write it anew: python -m tools real-time"
+
+
+def test_committed_page_of_the_base_on_inputs_is_that_of_the_committed_data() -> None:
+    written = base_on_inputs.page(BASE_ON_INPUTS)
+    assert written == BASE_ON_INPUTS_PAGE.read_text(), "write it anew: python -m tools base-on-inputs"
 
 
 def test_committed_page_of_binaries_is_that_of_the_committed_data() -> None:

@@ -16,7 +16,7 @@ use crate::scene::{
 use super::PackingState;
 use super::either_base::EitherBase;
 use super::equations;
-use super::hard::{HardDisks, HardEngine, START_GAP};
+use super::hard::{HardDisks, HardEngine};
 use super::initial_packing::{self, NAME};
 use super::rows::{self, AtStart};
 use super::settled::{self, Settled};
@@ -163,7 +163,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
     }
 
     fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
-        let disks = initial_packing::disks(info::disks(structure), values, START_GAP)?;
+        let disks = initial_packing::disks(info::disks(structure), values, settled::gap_of_hard_disks(values))?;
         let Settled { disks, warning } = settled::hard(disks, values)?;
         let masses = initial_packing::masses(&disks, values);
         let engine = E::from_values(&disks, &masses, start_time, values)?;

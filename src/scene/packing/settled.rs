@@ -63,7 +63,16 @@ pub fn soft<N: NormalForce>(disks: Vec<Disk>, normal: N, values: &Values) -> Res
     relaxed(disks, normal, AT_REST, values)
 }
 
-/// `disks` settled on a base at height zero with gaps between them: soft disks that are larger by more than they overlap.
+/// Gap of neighbours of hard disks over the sum of their radii in the packing that [`hard`] settles.
+const WIDER_GAP: f64 = 3.0 * START_GAP;
+
+/// Gap of neighbours of hard disks over the sum of their radii in the packing to start from.
+pub fn gap_of_hard_disks(values: &Values) -> f64 {
+    if is_wanted(values) { WIDER_GAP } else { START_GAP }
+}
+
+/// `disks` with gaps of [`gap_of_hard_disks`] settled on a base at height zero: as soft disks that are larger by the gaps, which
+/// is more than they overlap.
 ///
 /// # Errors
 /// As [`soft`].
@@ -85,8 +94,7 @@ pub fn hard(disks: Vec<Disk>, values: &Values) -> Result<Settled> {
         radius: factor * disk.radius,
         ..*disk
     };
-    let larger = 1.0 + 3.0 * START_GAP;
-    let inflated = disks.iter().map(|disk| scaled(disk, larger)).collect();
+    let inflated = disks.iter().map(|disk| scaled(disk, 1.0 + WIDER_GAP)).collect();
     let mut settled = relaxed(inflated, normal, HARD_AT_REST, values)?;
     for (place, disk) in settled.disks.iter_mut().zip(&disks) {
         place.radius = disk.radius;

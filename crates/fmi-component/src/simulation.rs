@@ -13,7 +13,8 @@ use crate::model::{Model, Reached};
 use crate::row::{Read, Row};
 use crate::structure::StructuralParameters;
 use crate::table::Table;
-use crate::times::check_time;
+use crate::times::{check_start, check_time};
+use crate::unit::Unit;
 use crate::value::Value;
 use crate::values::Values;
 use crate::variable::{Causality, Variable};
@@ -72,7 +73,7 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// A time that is not simulated, or values that the model refuses. All is then as before.
     pub fn start(&mut self, time: f64) -> Result<()> {
-        check_time("start time", time)?;
+        check_start(time)?;
         self.model = Some(self.build(time, &self.values)?);
         (self.start, self.time) = (time, time);
         Ok(())
@@ -83,10 +84,10 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// A time that is not simulated, or the simulation has started.
     pub fn set_start_time(&mut self, time: f64) -> Result<()> {
-        check_time("start time", time)?;
+        check_start(time)?;
         if self.is_started() {
             return Err(Error::call(
-                format!("the simulation has started at {} s", self.start),
+                format!("the simulation has started at {}", Unit::SECOND.format(self.start)),
                 "Stop it first.",
             ));
         }
@@ -202,8 +203,11 @@ impl<M: Model> Simulation<M> {
         if end_time <= self.time {
             return Err(Error::parameter(
                 "end of the step",
-                format!("{end_time} s"),
-                format!("a time after {} s, where the last step ended", self.time),
+                Unit::SECOND.format(end_time),
+                format!(
+                    "a time after {}, where the last step ended",
+                    Unit::SECOND.format(self.time)
+                ),
                 "Steps go forward in time.",
             ));
         }

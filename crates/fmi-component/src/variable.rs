@@ -171,7 +171,11 @@ impl Variable {
         let in_range = "Give a value in this range.";
         let (value, allowed, remedy) = match (&self.kind, value) {
             (Kind::Real(quantity), Value::Real(real)) => {
-                let allowed = format!("a finite number from {} to {}", quantity.min, quantity.max);
+                let allowed = format!(
+                    "a finite number from {} to {}",
+                    Value::Real(quantity.min),
+                    Value::Real(quantity.max)
+                );
                 (quantity.unit.format(real), allowed, in_range)
             }
             (Kind::Integer { range, .. } | Kind::Long { range, .. }, Value::Integer(integer)) => {
@@ -191,7 +195,7 @@ impl Variable {
                 "Set it as a real variable.",
             ),
             (_, Value::Real(real)) => (
-                real.to_string(),
+                Value::Real(real).to_string(),
                 "a whole number".into(),
                 "Set it as an integer variable.",
             ),

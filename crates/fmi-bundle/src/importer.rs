@@ -12,7 +12,7 @@ use std::ptr::{null, null_mut};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use fmi_component::{Error, Result};
+use fmi_component::{Error, Result, Unit};
 
 /// `fmi3Instance`.
 type Opaque = *mut c_void;
@@ -191,7 +191,11 @@ impl Instance {
             return Ok(());
         }
         Err(Error::call(
-            format!("the step to {end} s ended at {reached} s"),
+            format!(
+                "the step to {} ended at {}",
+                Unit::SECOND.format(end),
+                Unit::SECOND.format(reached)
+            ),
             "Report this.",
         ))
     }

@@ -8,6 +8,7 @@ use std::io::{Cursor, Read};
 use std::path::Path;
 
 use fmi_bundle::{Component, Version, find_library, model_description, pack, write};
+use fmi_component::ModelType;
 use support::{MODEL, component, folder, library};
 use zip::ZipArchive;
 
@@ -74,6 +75,30 @@ fn an_fmu_holds_what_each_standard_asks_for() {
         let reference = text(&mut archive, "extra/fmi-component/reference.csv");
         assert!(reference.starts_with("time,frame.position,frame.velocity,frame.reaction_force,"));
     }
+}
+
+/// A model that panics is told of; the program that bundles it goes on.
+#[test]
+fn a_panic_of_the_model_is_an_error() {
+    let in_a_run = ModelType {
+        prepare: |_| panic!("set to panic"),
+        ..MODEL
+    };
+    let component = Component::new(&in_a_run, &[]).unwrap();
+    let message = pack(&component, Version::Three, b"").unwrap_err().to_string();
+    assert!(
+        message.contains("the reference trajectory") && message.contains("set to panic"),
+        "{message}"
+    );
+    let in_its_rows = ModelType {
+        variables: |_| panic!("set to panic"),
+        ..MODEL
+    };
+    let message = Component::new(&in_its_rows, &[]).unwrap_err().to_string();
+    assert!(
+        message.contains("the variables of the model") && message.contains("set to panic"),
+        "{message}"
+    );
 }
 
 #[test]

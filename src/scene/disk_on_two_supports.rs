@@ -20,7 +20,7 @@ use crate::error::are_sane;
 use crate::measure::BatchMeans;
 
 use super::disks_on_base::complete;
-use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Values};
+use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values};
 pub use drives::DiskOnTwoSupportsDrive;
 
 /// [`DiskOnTwoSupportsScene`] under the torque of an input.
@@ -215,7 +215,11 @@ impl<E: DiskOnTwoSupportsDrive> DiskOnTwoSupportsScene<E> {
         let [x, y, ..] = now.disk;
         if setup.curvature > 0.0 && (y < -setup.radius || x.abs() > 2.0 * setup.radius) {
             return refused(
-                format!("the disk has fallen off its supports: it is at x = {x} m, y = {y} m"),
+                format!(
+                    "the disk has fallen off its supports: it is at x = {}, y = {}",
+                    Unit::METRE.format(x),
+                    Unit::METRE.format(y)
+                ),
                 "Drive it less, tilt it less, or take support.shape walls.",
             );
         }

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{CollisionLaw, Impact, checked};
 use crate::contact::LinearDashpot;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Shortest};
 use oscillator::Oscillator;
 use stick_slip::{StickSlip, TangentialSpring};
 pub use table::TabulatedDashpot;
@@ -45,7 +45,12 @@ impl Dashpot {
         let name = "contact.normal_stiffness";
         if !(normal_stiffness.is_finite() && normal_stiffness > 0.0) {
             let remedy = "Give the stiffness of the contact in N/m.";
-            return Err(Error::parameter(name, normal_stiffness, "above 0, finite", remedy));
+            return Err(Error::parameter(
+                name,
+                Shortest(normal_stiffness),
+                "above 0, finite",
+                remedy,
+            ));
         }
         let remedy = "0 has no tangential spring: surfaces pass each other freely.";
         Ok(Self {

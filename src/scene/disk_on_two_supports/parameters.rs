@@ -134,7 +134,7 @@ pub fn rig(values: &Values) -> Result<TwoSupportsRig> {
     if disks && opening < FRAC_PI_6 * (1.0 - 1e-12) {
         return Err(Error::parameter(
             "support.angle",
-            format!("{opening} rad"),
+            Unit::RADIAN.format(opening),
             format!("at least pi/6 = {FRAC_PI_6} rad between disks"),
             "The supporting disks would overlap: open them or take support.shape walls.",
         ));
@@ -142,8 +142,11 @@ pub fn rig(values: &Values) -> Result<TwoSupportsRig> {
     if tilt.abs() >= opening {
         return Err(Error::parameter(
             "tilt",
-            format!("{tilt} rad"),
-            format!("between -{opening} and {opening} rad, which is support.angle and excluded"),
+            Unit::RADIAN.format(tilt),
+            format!(
+                "between -{0} and {0}, which is support.angle and excluded",
+                Unit::RADIAN.format(opening)
+            ),
             "At this tilt nothing holds the disk on one side: tilt less or raise support.angle.",
         ));
     }

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Disk, Wall};
 use crate::packing::{RadiusClass, RadiusDistribution, advancing_front};
-use crate::scene::{Error, Result, Values};
+use crate::scene::{Error, Result, Unit, Values};
 
 use super::rows;
 
@@ -20,8 +20,11 @@ pub fn disks(count: u32, values: &Values, gap: f64) -> Result<Vec<Disk>> {
         if 2.0 * radius * (1.0 + gap) > width {
             return Err(Error::parameter(
                 *name,
-                format!("{radius} m"),
-                format!("at most half of box.width less gaps, {} m", 0.5 * width / (1.0 + gap)),
+                Unit::METRE.format(*radius),
+                format!(
+                    "at most half of box.width less gaps, {}",
+                    Unit::METRE.format(0.5 * width / (1.0 + gap))
+                ),
                 "Take smaller disks or a wider box.",
             ));
         }

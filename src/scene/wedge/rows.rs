@@ -102,8 +102,11 @@ pub fn check(values: &Values) -> Result<()> {
     if tilt.abs() >= critical {
         return Err(Error::parameter(
             "wedge.tilt",
-            format!("{tilt} rad"),
-            format!("between -{critical} and {critical} rad, which is (pi - wedge.aperture)/2 and excluded"),
+            Unit::RADIAN.format(tilt),
+            format!(
+                "between -{0} and {0}, which is (pi - wedge.aperture)/2 and excluded",
+                Unit::RADIAN.format(critical)
+            ),
             "At this tilt a wall is horizontal and the disk runs away: tilt less or take a smaller wedge.aperture.",
         ));
     }

@@ -85,7 +85,7 @@ fn smallest_effective_mass(masses: &[f64]) -> f64 {
 
 /// `max(k_n, 3 k_t)` \[N/m\].
 fn largest_stiffness<N: NormalForce>(laws: &ContactLaws<N>) -> f64 {
-    let tangential = if laws.tangential.friction > 0.0 {
+    let tangential = if laws.tangential.acts() {
         3.0 * laws.tangential.stiffness
     } else {
         0.0

@@ -55,14 +55,22 @@ impl Laws {
 
     /// Energy \[J\] in both springs of a contact with this overlap \[m\].
     pub fn elastic_energy(&self, contact: &Contact, overlap: f64) -> f64 {
-        let stretch = match contact.phase {
-            LocatedPhase::Open => return 0.0,
-            LocatedPhase::Unpressed => 0.0,
-            LocatedPhase::Stick => contact.kinematics.tangential_displacement - contact.reference,
-            LocatedPhase::SlipForward | LocatedPhase::SlipBackward => {
-                self.slip_compliance * self.normal_force(overlap, contact.kinematics.closing)
-            }
+        if contact.phase == LocatedPhase::Open {
+            return 0.0;
+        }
+        let stretch = contact.kinematics.tangential_displacement - contact.reference;
+        let force = self.normal_force(overlap, contact.kinematics.closing);
+        self.normal.energy(overlap) + self.spring_energy(contact.phase, stretch, force)
+    }
+
+    /// Energy \[J\] in the tangential spring of a contact in this phase: of its stretch \[m\] while it sticks, of the one that
+    /// the normal force \[N\] leaves while it slips.
+    pub fn spring_energy(&self, phase: LocatedPhase, stretch: f64, normal_force: f64) -> f64 {
+        let stretch = match phase {
+            LocatedPhase::Open | LocatedPhase::Unpressed => 0.0,
+            LocatedPhase::Stick => stretch,
+            LocatedPhase::SlipForward | LocatedPhase::SlipBackward => self.slip_compliance * normal_force,
         };
-        self.normal.energy(overlap) + self.tangential.energy(stretch)
+        self.tangential.energy(stretch)
     }
 }

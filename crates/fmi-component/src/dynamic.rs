@@ -87,6 +87,7 @@ pub trait DynSimulation: Send {
     fn advance_to(&mut self, end_time: f64) -> Result<()>;
     fn advance_to_event(&mut self, end_time: f64) -> Result<Reached>;
     fn resume_to_event(&mut self, end_time: f64) -> Result<Reached>;
+    fn warnings(&self) -> &[String];
     fn limit_work(&mut self, most: u64);
     fn save(&self) -> DynSaved;
     fn restore(&mut self, saved: &DynSaved) -> Result<()>;
@@ -171,6 +172,10 @@ impl<M: Model> DynSimulation for Simulation<M> {
 
     fn resume_to_event(&mut self, end_time: f64) -> Result<Reached> {
         self.resume_to_event(end_time)
+    }
+
+    fn warnings(&self) -> &[String] {
+        self.warnings()
     }
 
     fn limit_work(&mut self, most: u64) {

@@ -106,6 +106,11 @@ impl Instance {
         self.simulation.values().as_slice()
     }
 
+    /// What is doubtful about the parameters of the model that was built.
+    pub fn warnings(&self) -> &[String] {
+        self.simulation.warnings()
+    }
+
     /// Token that it was made with.
     pub fn token(&self) -> &str {
         &self.token

@@ -74,6 +74,12 @@ pub trait Model: Sized + Send + 'static {
     /// model whose calls take the same time whatever is asked of them has nothing to limit.
     fn limit_work(&mut self, _most: u64) {}
 
+    /// What is doubtful about the parameters that this model was made from, each a sentence or two with what to do: the importer
+    /// finds them in its log.
+    fn warnings(&self) -> &[String] {
+        &[]
+    }
+
     /// A copy of the present state.
     fn state(&self) -> Self::State;
 

@@ -225,6 +225,11 @@ impl<M: Model> Simulation<M> {
         reached
     }
 
+    /// What the model says is doubtful about its parameters; nothing before the start.
+    pub fn warnings(&self) -> &[String] {
+        self.model.as_ref().map_or(&[], M::warnings)
+    }
+
     /// Limits the work of one step, in the unit of the model, instead of its own limit.
     pub fn limit_work(&mut self, most: u64) {
         self.most_work = Some(most);
@@ -363,11 +368,47 @@ impl<M: Model> Simulation<M> {
     }
 
     fn build(&self, start: f64, values: &Values) -> Result<M> {
-        let mut model = M::new(&self.structure, start, values)?;
+        let model = M::new(&self.structure, start, values);
+        let mut model = model.map_err(|error| name_what_was_set(error, values))?;
         if let Some(most) = self.most_work {
             model.limit_work(most);
         }
         Ok(model)
+    }
+}
+
+/// Parameters that are named at most where another is to blame.
+const MOST_NAMED: usize = 6;
+
+/// The refusal of a parameter that nobody has set, with what was set: of two values that do not go together the model names one,
+/// and the user may have given the other.
+#[cold]
+fn name_what_was_set(error: Error, values: &Values) -> Error {
+    let Error::Parameter {
+        name,
+        value,
+        allowed,
+        remedy,
+    } = error
+    else {
+        return error;
+    };
+    let given = values.table().settable().iter().zip(values.as_slice());
+    let set: Vec<_> = given.filter(|(variable, value)| variable.start() != **value).collect();
+    let is_set = set.iter().any(|(variable, _)| variable.name == name);
+    let texts = set.iter().take(MOST_NAMED);
+    let texts: Vec<_> = texts
+        .map(|(variable, value)| format!("{} = {}", variable.name, variable.text(**value)))
+        .collect();
+    let remedy = match is_set || texts.is_empty() {
+        true => remedy,
+        false => format!("{remedy} {name} was not set, but {}.", texts.join(", ")),
+    };
+    Error::Parameter {
+        name,
+        value,
+        allowed,
+        remedy,
     }
 }
 

@@ -12,7 +12,7 @@ pub const TIME_REFERENCE: u32 = 0;
 pub const TOLERANCE: &str = "tolerance";
 
 /// Categories of log messages, as declared in the model description: name and description.
-pub const LOG_CATEGORIES: [(&str, &str); 3] = [
+pub const LOG_CATEGORIES: [(&str, &str); 4] = [
     (
         "logStatusError",
         "Calls that were refused, with the reason and the remedy",
@@ -22,4 +22,8 @@ pub const LOG_CATEGORIES: [(&str, &str); 3] = [
         "Steps that could not be done; the state is the one before the step",
     ),
     ("logEvents", "Life cycle: instantiated, initialised, terminated, reset"),
+    (
+        "logStatusWarning",
+        "What is doubtful about the parameters, such as a seed that decides nothing",
+    ),
 ];

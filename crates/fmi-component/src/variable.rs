@@ -115,6 +115,14 @@ impl Variable {
         }
     }
 
+    /// `value` as a text with the unit of this variable; of an enumeration its number.
+    pub fn text(&self, value: Value) -> String {
+        match (&self.kind, value) {
+            (Kind::Real(quantity), Value::Real(real)) => quantity.unit.format(real),
+            _ => value.to_string(),
+        }
+    }
+
     /// Value that `text` stands for; of an enumeration the name of an option or its number. The range is not checked.
     ///
     /// # Errors

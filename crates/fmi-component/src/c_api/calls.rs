@@ -28,6 +28,22 @@ pub unsafe fn transition(entry: Entry, change: fn(&mut Instance) -> Result<()>) 
     }
 }
 
+/// `fmi2ExitInitializationMode`, `fmi3ExitInitializationMode`: the parameters are frozen, and what is doubtful of them is logged.
+///
+/// # Safety
+/// As for [`Entry::change`].
+pub unsafe fn exit_initialization(entry: Entry) -> Status {
+    // SAFETY: passed on.
+    unsafe {
+        entry.change(|component| {
+            component.instance.exit_initialization()?;
+            component.log_phase(entry.function);
+            component.log_warnings(entry.function);
+            Ok(())
+        })
+    }
+}
+
 /// `fmi2Reset`, `fmi3Reset`.
 ///
 /// # Safety

@@ -259,6 +259,14 @@ impl Component {
         self.refused = None;
     }
 
+    /// Logs what is doubtful about the parameters.
+    pub fn log_warnings(&self, function: &str) {
+        for warning in self.instance.warnings() {
+            let message = format!("{function}: {warning}");
+            self.logger.log(Status::Warning, Category::Warning, &message);
+        }
+    }
+
     /// Logs a change in the life of the instance.
     pub fn log_phase(&self, function: &str) {
         let (phase, time) = (self.instance.phase().name(), Unit::SECOND.format(self.instance.time()));

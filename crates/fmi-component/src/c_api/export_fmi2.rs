@@ -44,7 +44,7 @@ macro_rules! export_fmi2 {
                         (tolerance_defined != 0).then_some(tolerance), start, (stop_defined != 0).then_some(stop)
                     );
                 fn fmi2EnterInitializationMode() = calls::transition(Instance::enter_initialization);
-                fn fmi2ExitInitializationMode() = calls::transition(Instance::exit_initialization);
+                fn fmi2ExitInitializationMode() = calls::exit_initialization();
                 fn fmi2Terminate() = calls::transition(Instance::terminate);
                 fn fmi2Reset() = calls::reset();
                 fn fmi2GetReal(references: *const u32, count: usize, values: *mut f64) =

@@ -60,7 +60,7 @@ macro_rules! export_fmi3 {
                     fmi3::enter_initialization_mode(
                         (tolerance_defined != 0).then_some(tolerance), start, (stop_defined != 0).then_some(stop)
                     );
-                fn fmi3ExitInitializationMode() = calls::transition(Instance::exit_initialization);
+                fn fmi3ExitInitializationMode() = calls::exit_initialization();
                 fn fmi3EnterEventMode() = calls::transition(Instance::enter_event_mode);
                 fn fmi3Terminate() = calls::transition(Instance::terminate);
                 fn fmi3Reset() = calls::reset();

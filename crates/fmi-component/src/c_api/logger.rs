@@ -15,6 +15,8 @@ pub enum Category {
     Discard,
     /// Life cycle.
     Events,
+    /// What is doubtful.
+    Warning,
 }
 
 /// The importer's callback with the environment that it wants back.
@@ -81,7 +83,12 @@ impl Logger {
 
     /// Sends `message` if its category is on.
     pub fn log(&self, status: Status, category: Category, message: &str) {
-        const NAMES: [&CStr; LOG_CATEGORIES.len()] = [c"logStatusError", c"logStatusDiscard", c"logEvents"];
+        const NAMES: [&CStr; LOG_CATEGORIES.len()] = [
+            c"logStatusError",
+            c"logStatusDiscard",
+            c"logEvents",
+            c"logStatusWarning",
+        ];
         if !self.on[category as usize] {
             return;
         }
@@ -125,5 +132,6 @@ mod tests {
         assert_eq!(LOG_CATEGORIES[Category::Error as usize].0, "logStatusError");
         assert_eq!(LOG_CATEGORIES[Category::Discard as usize].0, "logStatusDiscard");
         assert_eq!(LOG_CATEGORIES[Category::Events as usize].0, "logEvents");
+        assert_eq!(LOG_CATEGORIES[Category::Warning as usize].0, "logStatusWarning");
     }
 }

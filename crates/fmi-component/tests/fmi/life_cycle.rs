@@ -133,6 +133,32 @@ fn a_discarded_step_keeps_the_state_and_may_be_tried_shorter() {
     }
 }
 
+/// A doubtful parameter is told of once, when it is frozen, and is no failure; FMI 3.0 logs what is switched on.
+#[test]
+fn what_is_doubtful_is_logged_when_initialisation_ends() {
+    for client in [Client::two(), Client::three()] {
+        if client.three {
+            let categories = [c"logStatusWarning".as_ptr()];
+            assert_eq!(
+                unsafe { fmi3SetDebugLogging(client.pointer, 1, 1, categories.as_ptr()) },
+                Ok
+            );
+        }
+        let client = client.ready(&[("damper.damping", 0.0)]);
+        client.run((0, 2), 0.01);
+        let lines = client.log.borrow();
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert_eq!((lines[0].0, lines[0].1.as_str()), (1, "logStatusWarning"));
+        assert!(
+            lines[0]
+                .2
+                .contains("ExitInitializationMode: damper.damping = 0: the bodies never"),
+            "{lines:?}"
+        );
+    }
+    assert_eq!(Client::two().ready(&[]).last_message(), "");
+}
+
 /// Only the very same step is answered by an error: with other inputs or from another state it may be possible.
 #[test]
 fn a_discarded_step_with_other_inputs_or_from_another_state_is_another_step() {

@@ -43,6 +43,7 @@ pub struct Oscillators {
     panic_time: f64,
     refuse_time: f64,
     most_steps: u64,
+    warnings: Vec<String>,
     state: State,
 }
 
@@ -132,7 +133,9 @@ impl Model for Oscillators {
                 *velocity = draw(&mut state.random);
             }
         }
+        let undamped = "damper.damping = 0: the bodies never come to rest. Set it above 0 if they should.";
         Ok(Self {
+            warnings: (damping == 0.0).then(|| undamped.into()).into_iter().collect(),
             start: start_time,
             stiffness,
             mass,
@@ -174,6 +177,10 @@ impl Model for Oscillators {
 
     fn limit_work(&mut self, most: u64) {
         self.most_steps = most;
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     fn state(&self) -> State {

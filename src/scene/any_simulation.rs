@@ -110,6 +110,11 @@ impl AnySimulation {
         self.0.position(name)
     }
 
+    /// What is doubtful about the parameters, each a sentence or two with what to do.
+    pub fn warnings(&self) -> &[String] {
+        self.0.warnings()
+    }
+
     /// Advances to `end_time` \[s\] under the inputs as they stand, as one communication step.
     ///
     /// # Errors

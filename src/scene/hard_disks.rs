@@ -9,7 +9,7 @@ use crate::error::are_sane;
 
 use super::base_drive::BaseDrive;
 use super::disks_on_base::DisksOnBase;
-use super::{Error, Result, Row, Unit, Values};
+use super::{Error, Result, Row, Unit, Values, work_limit};
 
 /// A base that a scene of hard disks can stand on.
 pub trait HardBase: VibratingBase {
@@ -58,17 +58,19 @@ impl HardBase for Moving<FollowsInput> {
     }
 }
 
-/// The refusal of a step that an event-driven engine could not finish; `partner` names walls and the edge of a shell.
+/// The refusal of a step that an event-driven engine could not finish; `partner` names walls and the edge of a shell, `crowded`
+/// says what makes many events.
 pub fn refused_step(
     scene: &'static str,
     stop: EventDrivenStop,
     partner: impl FnOnce(Partner) -> &'static str,
     remedy: &str,
+    crowded: &str,
 ) -> Error {
     let stop = match stop {
         EventDrivenStop::NoHeadway(stop) => stop,
         EventDrivenStop::TooManyEvents { time, most } => {
-            return Error::too_much_work(scene, time, format!("more than {most} events"));
+            return work_limit::refusal(scene, time, &format!("more than {most} events"), crowded);
         }
     };
     let partner = match stop.partner {

@@ -6,7 +6,7 @@ use crate::contact::ContactLaws;
 use crate::engine::disk_on_two_supports::{SupportFrame, TwoSupportsRig};
 use crate::error::{Error, Result};
 use crate::scene::soft_disks::contact_laws;
-use crate::scene::{Row, Unit, Values};
+use crate::scene::{Row, Unit, Values, work_limit};
 
 /// P 4.1, left and right.
 const SHAPES: &[(&str, &str)] = &[
@@ -117,6 +117,7 @@ fn run<M>() -> Vec<Row<M>> {
             "Time step of the integration; 0: half a radian of the fastest mode",
         )
         .with_nominal(1e-5),
+        work_limit::row(),
     ]
 }
 

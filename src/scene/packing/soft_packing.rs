@@ -2,20 +2,18 @@
 
 use crate::drive::Motion;
 use crate::engine::dem::{FixedGrid, GridState, SoftDiskSetup, TimeStepLimits};
-use crate::engine::{DiskMotion, Engine, MOST_WORK_IN_A_CALL, WorkBudget};
+use crate::engine::{DiskMotion, Engine};
 use crate::error::are_sane;
 use crate::geometry::Disk;
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, names, radii};
 use crate::scene::soft_disks::{SceneNormalForce, chosen_time_step, contact_laws, refused_step};
+use crate::scene::work_limit::WorkLimit;
 use crate::scene::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, info};
 
 use super::initial_packing::{self, NAME};
 use super::rows::{self, AtStart};
 use super::{PackingState, equations, soft::SoftMethod};
-
-/// Index of the vibrating floor among the walls.
-const FLOOR: usize = 0;
 
 /// What the largest time step depends on besides the radii and the drive.
 const STIFFEST: &[&str] = &[
@@ -31,11 +29,11 @@ const STIFFEST: &[&str] = &[
 pub struct SoftPacking<S: SoftMethod, D> {
     engine: FixedGrid<S, D>,
     limits: TimeStepLimits,
-    /// Work that one call may do.
-    most_work: u64,
+    work_limit: WorkLimit,
     report: StepReport,
     /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
     start_energy: f64,
+    warnings: Vec<String>,
 }
 
 impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
@@ -62,7 +60,8 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         let mut packing = Self {
             engine: FixedGrid::new(setup, &disks, drive),
             limits,
-            most_work: MOST_WORK_IN_A_CALL,
+            work_limit: WorkLimit::new(start_time, disks.len(), values),
+            warnings: initial_packing::warnings(&disks, false, values),
             report: StepReport::at_start(start_time),
             start_energy: 0.0,
         };
@@ -73,6 +72,14 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
     /// The engine, to observe everything that is no output.
     pub fn engine(&self) -> &FixedGrid<S, D> {
         &self.engine
+    }
+
+    /// Vertical impulse \[N.s\] that the walls that move with the base have given to the disks since the start.
+    fn impulse_of_base(&self) -> f64 {
+        let walls = self.engine.setup().walls.iter().enumerate();
+        walls
+            .map(|(index, wall)| wall.follows_base * self.engine.impulse_of_wall(index)[1])
+            .sum()
     }
 
     /// Kinetic, potential and elastic energy \[J\] together.
@@ -221,25 +228,29 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
         let from = self.report.time;
         let duration = end_time - from;
-        let impulse = self.engine.impulse_of_wall(FLOOR)[1];
+        let impulse = self.impulse_of_base();
         let drive = self.engine.drive_mut().clone();
         self.engine.drive_mut().set_target(from, duration, values);
         if let Err(breakdown) = self
             .engine
-            .advance_within(end_time, &mut WorkBudget::at_most(self.most_work))
+            .advance_within(end_time, &mut self.work_limit.budget(0, end_time))
         {
             *self.engine.drive_mut() = drive;
             return Err(refused_step(NAME, breakdown));
         }
         self.report = StepReport {
             time: end_time,
-            reaction_force: (impulse - self.engine.impulse_of_wall(FLOOR)[1]) / duration,
+            reaction_force: (impulse - self.impulse_of_base()) / duration,
         };
         Ok(())
     }
 
     fn limit_work(&mut self, most: u64) {
-        self.most_work = most;
+        self.work_limit.replace(most);
+    }
+
+    fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     fn state(&self) -> Self::State {

@@ -18,7 +18,9 @@ pub fn refusal(stop: EventDrivenStop) -> Error {
         _ => "nobody: it is too fast",
     };
     let remedy = "Inelastic collapse? Raise collision.minimum_normal_velocity or collision.restitution.";
-    refused_step(NAME, stop, partner, remedy)
+    let crowded = "Disks that touch all the time collide again and again: where they lie still, or where a thick layer is shaken \
+                   weakly. Shake more, take fewer disks or raise collision.minimum_normal_velocity.";
+    refused_step(NAME, stop, partner, remedy, crowded)
 }
 
 /// The inputs move the base so that disks cannot follow it.

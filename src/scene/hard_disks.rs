@@ -70,7 +70,11 @@ pub fn refused_step(
     let stop = match stop {
         EventDrivenStop::NoHeadway(stop) => stop,
         EventDrivenStop::TooManyEvents { time, most } => {
-            return work_limit::refusal(scene, time, &format!("more than {most} events"), crowded);
+            let asked = match most {
+                0 => "events beyond those of the seconds simulated so far".into(),
+                _ => format!("more than {most} events"),
+            };
+            return work_limit::refusal(scene, time, &asked, crowded);
         }
     };
     let partner = match stop.partner {

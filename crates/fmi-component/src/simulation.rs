@@ -4,6 +4,7 @@
 //! state brings back the same bits. Not here: models chosen at run time ([`DynSimulation`](crate::DynSimulation)), the life
 //! cycle of FMI.
 
+mod refusal;
 mod saving;
 
 use std::sync::Arc;
@@ -18,6 +19,7 @@ use crate::unit::Unit;
 use crate::value::Value;
 use crate::values::Values;
 use crate::variable::{Causality, Variable};
+use refusal::name_what_was_set;
 pub use saving::Saved;
 
 /// One run of a model.
@@ -374,41 +376,6 @@ impl<M: Model> Simulation<M> {
             model.limit_work(most);
         }
         Ok(model)
-    }
-}
-
-/// Parameters that are named at most where another is to blame.
-const MOST_NAMED: usize = 6;
-
-/// The refusal of a parameter that nobody has set, with what was set: of two values that do not go together the model names one,
-/// and the user may have given the other.
-#[cold]
-fn name_what_was_set(error: Error, values: &Values) -> Error {
-    let Error::Parameter {
-        name,
-        value,
-        allowed,
-        remedy,
-    } = error
-    else {
-        return error;
-    };
-    let given = values.table().settable().iter().zip(values.as_slice());
-    let set: Vec<_> = given.filter(|(variable, value)| variable.start() != **value).collect();
-    let is_set = set.iter().any(|(variable, _)| variable.name == name);
-    let texts = set.iter().take(MOST_NAMED);
-    let texts: Vec<_> = texts
-        .map(|(variable, value)| format!("{} = {}", variable.name, variable.text(**value)))
-        .collect();
-    let remedy = match is_set || texts.is_empty() {
-        true => remedy,
-        false => format!("{remedy} {name} was not set, but {}.", texts.join(", ")),
-    };
-    Error::Parameter {
-        name,
-        value,
-        allowed,
-        remedy,
     }
 }
 

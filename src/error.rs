@@ -35,6 +35,21 @@ impl Error {
     }
 }
 
+/// A number in a message: its shortest text, which reads back as the same bits, with powers of ten where zeros would fill the
+/// line.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shortest(pub f64);
+
+impl std::fmt::Display for Shortest {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self(number) = *self;
+        match number == 0.0 || !number.is_finite() || (1e-4..1e6).contains(&number.abs()) {
+            true => write!(formatter, "{number}"),
+            false => write!(formatter, "{number:e}"),
+        }
+    }
+}
+
 /// Whether all numbers are finite, and so far from overflow that what is computed from them is finite too.
 pub(crate) fn are_sane(numbers: impl IntoIterator<Item = f64>) -> bool {
     numbers.into_iter().all(|number| number.abs() < 1e100)

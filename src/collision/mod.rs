@@ -22,6 +22,8 @@ mod dashpot;
 mod smooth;
 mod velocity_floor;
 
+use crate::error::{Error, Result, Shortest};
+
 pub use contact_time::ContactTime;
 pub use coulomb::Coulomb;
 pub use dashpot::{Dashpot, TabulatedDashpot};
@@ -114,16 +116,16 @@ pub fn tangential_mass(
 }
 
 /// A number in [0, `most`], or the parameter's name and what to do.
-fn checked(name: &'static str, value: f64, most: f64, remedy: &'static str) -> crate::error::Result<f64> {
+fn checked(name: &'static str, value: f64, most: f64, remedy: &'static str) -> Result<f64> {
     if value.is_finite() && (0.0..=most).contains(&value) {
         return Ok(value);
     }
     let allowed = if most.is_finite() {
-        format!("0 to {most}")
+        format!("0 to {}", Shortest(most))
     } else {
         "0 or more, finite".to_string()
     };
-    Err(crate::error::Error::parameter(name, value, allowed, remedy))
+    Err(Error::parameter(name, Shortest(value), allowed, remedy))
 }
 
 #[cfg(test)]

@@ -332,6 +332,22 @@ fn a_table_without_end_is_given_up_once() {
     assert!(table.pieces() > 40 && table.most_work() == 1);
 }
 
+/// Numbers so small that they have lost digits made a table of pieces without end, for a minute and more.
+#[test]
+fn a_friction_or_stiffness_that_rounding_leaves_nothing_of_is_none() {
+    for (kappa, friction) in [(0.77, 5e-324), (0.77, 1e-300), (5e-324, 0.1), (1e-310, 1e-310)] {
+        let law = Dashpot::new(1e4, 0.1, kappa, friction).unwrap();
+        let table = TabulatedDashpot::new(law, &[1.0], 0.5);
+        assert_eq!((table.samples(), table.most_work()), (0, 1), "{kappa:e} {friction:e}");
+        for impulse in [
+            law.impulse(&disk_on_wall(-0.5, 0.1)),
+            table.impulse(&disk_on_wall(-0.5, 0.1)),
+        ] {
+            assert!(impulse.tangential == 0.0 && impulse.normal > 0.0);
+        }
+    }
+}
+
 #[test]
 fn refuses_what_is_out_of_range() {
     assert!(

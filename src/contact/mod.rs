@@ -10,7 +10,7 @@ mod linear_dashpot;
 mod tangential_spring;
 
 pub use linear_dashpot::LinearDashpot;
-pub use tangential_spring::TangentialSpring;
+pub use tangential_spring::{NO_FRICTION, TangentialSpring};
 
 /// A normal force of soft disks, `max(elastic - viscous, 0)`: a function of the overlap delta and the normal velocity u_n.
 ///

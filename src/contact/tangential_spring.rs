@@ -1,5 +1,9 @@
 //! Tangential force of a spring that slips at the limit of Coulomb friction (P 4.2.2, after Cundall and Strack 1979).
 
+/// Friction coefficient, and tangential stiffness \[N/m\], below which surfaces pass each other freely. The force would be less
+/// than the rounding of any other, and products of smaller numbers are no longer exact.
+pub const NO_FRICTION: f64 = 1e-100;
+
 /// Tangential spring of stiffness k_t (Cundall and Strack; P calls it the elastic skin of the disks) with Coulomb's limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TangentialSpring {
@@ -12,7 +16,7 @@ pub struct TangentialSpring {
 impl TangentialSpring {
     /// Whether there is any force along the surfaces.
     pub fn acts(&self) -> bool {
-        self.friction > 0.0 && self.stiffness > 0.0
+        self.friction >= NO_FRICTION && self.stiffness >= NO_FRICTION
     }
 
     /// The stretch \[m\] that Coulomb friction `k_t |s| <= mu n` leaves of `stretch` s = lambda - lambda* \[m\].

@@ -14,7 +14,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::clockwise;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Shortest};
 
 /// Periodic row of equal teeth; a tooth begins at each multiple of its width.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -72,8 +72,11 @@ impl SawtoothProfile {
         if 2.0 * tip_radius > width {
             return Err(Error::parameter(
                 "tooth.tip_radius",
-                format!("{tip_radius} m"),
-                format!("at most half of tooth.width = {width} m: the tooth is narrower than its tip"),
+                format!("{} m", Shortest(tip_radius)),
+                format!(
+                    "at most half of tooth.width = {} m: the tooth is narrower than its tip",
+                    Shortest(width)
+                ),
                 "Take a smaller tip or wider teeth.",
             ));
         }
@@ -88,11 +91,13 @@ impl SawtoothProfile {
         if tip_radius > shortest * half {
             return Err(Error::parameter(
                 "tooth.tip_radius",
-                format!("{tip_radius} m"),
+                format!("{} m", Shortest(tip_radius)),
                 format!(
-                    "at most {} m for teeth {width} m wide, {height} m high, asymmetry {asymmetry}: the arc has to touch \
-                     both sides",
-                    shortest * half
+                    "at most {} m for teeth {} m wide, {} m high, asymmetry {}: the arc has to touch both sides",
+                    Shortest(shortest * half),
+                    Shortest(width),
+                    Shortest(height),
+                    Shortest(asymmetry)
                 ),
                 "Take a smaller tip, or higher or more even teeth.",
             ));
@@ -175,7 +180,12 @@ fn check(name: &str, value: f64, range: RangeInclusive<f64>, allowed: &str) -> R
     if range.contains(&value) {
         return Ok(());
     }
-    Err(Error::parameter(name, value, allowed, "Give a value in this range."))
+    Err(Error::parameter(
+        name,
+        Shortest(value),
+        allowed,
+        "Give a value in this range.",
+    ))
 }
 
 #[cfg(test)]

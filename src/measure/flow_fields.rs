@@ -10,7 +10,7 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::drive::{BoundedDrive, Sine};
 use crate::engine::event_driven::{Body, Observer};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Shortest};
 
 /// Most boxes times windows: 24 bytes each.
 const MOST_SUMS: f64 = 1e7;
@@ -84,7 +84,7 @@ impl FlowFields {
         if sine.frequency <= 0.0 {
             return Err(Error::parameter(
                 "drive.frequency",
-                format!("{} Hz", sine.frequency),
+                format!("{} Hz", Shortest(sine.frequency)),
                 "above 0 Hz: fields are averaged over windows of the period",
                 "Shake the base.",
             ));
@@ -96,7 +96,7 @@ impl FlowFields {
         if !(1.0..=MOST_SUMS).contains(&sums) {
             return Err(Error::parameter(
                 "boxes times phase windows",
-                sums,
+                Shortest(sums),
                 format!("from 1 to {MOST_SUMS:e} up to the ceiling"),
                 "Take fewer boxes for a tooth, fewer windows, or lower cell.height.",
             ));

@@ -17,7 +17,7 @@ mod front;
 mod radii;
 mod resting;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Shortest};
 use crate::geometry::Disk;
 use candidates::Candidates;
 use front::Front;
@@ -64,15 +64,24 @@ fn check(radii: &[f64], width: f64) -> Result<()> {
     if !(width.is_finite() && width > 0.0) {
         let allowed = "a finite length above 0 m";
         let remedy = "Give the inner width of the box in metres, such as 0.40.";
-        return Err(Error::parameter("box.width", format!("{width} m"), allowed, remedy));
+        return Err(Error::parameter(
+            "box.width",
+            format!("{} m", Shortest(width)),
+            allowed,
+            remedy,
+        ));
     }
     for (index, &radius) in radii.iter().enumerate() {
         check_radius(radius, &format!(" (disk {})", index + 1))?;
         if 2.0 * radius > width {
             return Err(Error::parameter(
                 "disk.radius",
-                format!("{radius} m (disk {})", index + 1),
-                format!("at most half of box.width = {width} m, that is {} m", width / 2.0),
+                format!("{} m (disk {})", Shortest(radius), index + 1),
+                format!(
+                    "at most half of box.width = {} m, that is {} m",
+                    Shortest(width),
+                    Shortest(width / 2.0)
+                ),
                 "Widen box.width or take a smaller disk.",
             ));
         }
@@ -81,10 +90,10 @@ fn check(radii: &[f64], width: f64) -> Result<()> {
     if width > WIDEST * smallest {
         return Err(Error::parameter(
             "box.width",
-            format!("{width} m"),
+            format!("{} m", Shortest(width)),
             format!(
                 "at most {WIDEST:e} times the smallest radius, that is {} m",
-                WIDEST * smallest
+                Shortest(WIDEST * smallest)
             ),
             "Narrow the box or take larger disks: contacts would drown in the rounding of the coordinates.",
         ));
@@ -99,7 +108,7 @@ fn check_radius(radius: f64, whose: &str) -> Result<()> {
     }
     Err(Error::parameter(
         "disk.radius",
-        format!("{radius} m{whose}"),
+        format!("{} m{whose}", Shortest(radius)),
         format!("from {:e} to {:e} m", RADIUS_RANGE.start(), RADIUS_RANGE.end()),
         "Give every radius as a positive length in metres, such as 0.015.",
     ))
@@ -108,8 +117,12 @@ fn check_radius(radius: f64, whose: &str) -> Result<()> {
 fn no_place(index: usize, radius: f64, width: f64) -> Error {
     Error::parameter(
         "box.width",
-        format!("{width} m"),
-        format!("a front with a place for disk {} of radius {radius} m", index + 1),
+        format!("{} m", Shortest(width)),
+        format!(
+            "a front with a place for disk {} of radius {} m",
+            index + 1,
+            Shortest(radius)
+        ),
         "Change the order of the radii or the width slightly and report this case.",
     )
 }

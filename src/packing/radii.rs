@@ -5,7 +5,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use super::check_radius;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Shortest};
 
 /// One class of equal disks.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -80,7 +80,7 @@ impl RadiusDistribution {
                 for class in classes {
                     check_radius(class.radius, "")?;
                     if class.parts == 0 {
-                        let value = format!("0 parts of radius {} m", class.radius);
+                        let value = format!("0 parts of radius {} m", Shortest(class.radius));
                         let remedy = "Leave the class out or give it parts.";
                         return Err(Error::parameter("disk.radius", value, "1 part or more", remedy));
                     }
@@ -91,7 +91,7 @@ impl RadiusDistribution {
                 check_radius(*min, " (smallest)")?;
                 check_radius(*max, " (largest)")?;
                 if min > max {
-                    let value = format!("{min} m to {max} m");
+                    let value = format!("{} m to {} m", Shortest(*min), Shortest(*max));
                     let remedy = "Give the smaller radius first.";
                     return Err(Error::parameter("disk.radius", value, "min up to max", remedy));
                 }

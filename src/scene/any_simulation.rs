@@ -5,7 +5,9 @@
 
 use std::fmt;
 
-use super::{DynSimulation, Error, Model, Result, Simulation, StructuralParameters, Value, Variable, catalogue};
+use super::{
+    DynSimulation, Error, Model, Result, Simulation, StructuralParameters, Value, Variable, Warning, catalogue,
+};
 
 /// Which scene, by name. What is left out is the scene's first: `jostle describe` and the README list them.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -108,6 +110,11 @@ impl AnySimulation {
     /// The scene has no such variable.
     pub fn position(&self, name: &str) -> Result<usize> {
         self.0.position(name)
+    }
+
+    /// What is doubtful about the parameters, each a sentence or two with what to do.
+    pub fn warnings(&self) -> Vec<Warning> {
+        self.0.warnings()
     }
 
     /// Advances to `end_time` \[s\] under the inputs as they stand, as one communication step.

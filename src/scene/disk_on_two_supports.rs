@@ -7,20 +7,22 @@ mod equations;
 mod observables;
 mod outputs;
 mod parameters;
+mod rest;
 
 use serde::{Deserialize, Serialize};
 
-use crate::drive::excitation::{HarmonicTorque, InputTorque, Piece, RandomSupports, SineSupports};
+use crate::drive::excitation::{HarmonicTorque, InputTorque, RandomSupports, SineSupports};
+use crate::engine::Engine;
 use crate::engine::disk_on_two_supports::contact::ContactForce;
 use crate::engine::disk_on_two_supports::{
-    DiskOnTwoSupports, Record, TimeStepLimits, TwoSupportsSetup, TwoSupportsState, TwoSupportsStop, equilibrium,
+    DiskOnTwoSupports, Record, TwoSupportsSetup, TwoSupportsState, TwoSupportsStop,
 };
-use crate::engine::{Engine, MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::are_sane;
 use crate::measure::BatchMeans;
 
 use super::disks_on_base::complete;
-use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Values, Warning};
+use super::work_limit::{self, WorkLimit};
+use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning};
 pub use drives::DiskOnTwoSupportsDrive;
 
 /// [`DiskOnTwoSupportsScene`] under the torque of an input.
@@ -45,8 +47,8 @@ pub struct DiskOnTwoSupportsScene<E> {
     contacts: [ContactForce; 2],
     /// Energy at the start \[J\].
     start_energy: f64,
-    /// Work that one call may do.
-    most_work: u64,
+    work_limit: WorkLimit,
+    start_time: f64,
     begun: Begun,
     report: DiskOnTwoSupportsReport,
 }
@@ -92,24 +94,10 @@ fn refusal(stop: TwoSupportsStop) -> Error {
             remedy: "Lower time_step, or raise contact.normal_damping.".into(),
         },
         TwoSupportsStop::TooManySteps { time, steps } => {
-            Error::too_much_work(NAME, time, format!("{steps:e} time steps"))
+            let reason = "A light disk, stiff contacts and fast drives make the time step small: see chosen_time_step.";
+            work_limit::refusal(NAME, time, &format!("{steps:e} time steps"), reason)
         }
     }
-}
-
-fn chosen_time_step(given: f64, limits: &TimeStepLimits) -> Result<f64> {
-    if given == 0.0 {
-        return Ok(limits.default);
-    }
-    if given > limits.largest {
-        return Err(Error::parameter(
-            "time_step",
-            format!("{given:e} s"),
-            format!("0, or up to {:e} s with these contacts and this drive", limits.largest),
-            "Leave it 0, or soften the contacts or slow the drive down.",
-        ));
-    }
-    Ok(given)
 }
 
 impl<E: DiskOnTwoSupportsDrive> DiskOnTwoSupportsScene<E> {
@@ -185,7 +173,7 @@ impl<E: DiskOnTwoSupportsDrive> DiskOnTwoSupportsScene<E> {
     }
 
     fn check_work(&self, end_time: f64) -> Result<()> {
-        let mut budget = WorkBudget::at_most(self.most_work);
+        let mut budget = self.work_limit.budget(0, end_time);
         self.engine.spend(end_time, &mut budget).map_err(refusal)
     }
 
@@ -216,7 +204,11 @@ impl<E: DiskOnTwoSupportsDrive> DiskOnTwoSupportsScene<E> {
         let [x, y, ..] = now.disk;
         if setup.curvature > 0.0 && (y < -setup.radius || x.abs() > 2.0 * setup.radius) {
             return refused(
-                format!("the disk has fallen off its supports: it is at x = {x} m, y = {y} m"),
+                format!(
+                    "the disk has fallen off its supports: it is at x = {}, y = {}",
+                    Unit::METRE.format(x),
+                    Unit::METRE.format(y)
+                ),
                 "Drive it less, tilt it less, or take support.shape walls.",
             );
         }
@@ -254,21 +246,10 @@ impl<E: DiskOnTwoSupportsDrive> Model for DiskOnTwoSupportsScene<E> {
     }
 
     fn new(_structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
+        let rest = rest::of::<E>(start_time, values)?;
         let rig = parameters::rig(values)?;
-        let limits = TimeStepLimits::of(&rig, E::period(values));
-        let time_step = chosen_time_step(values.real("time_step"), &limits)?;
+        let time_step = rest::time_step::<E>(&rig, values)?;
         let excitation = E::new(start_time, time_step, values);
-        let rest = equilibrium(&rig, &excitation.piece(start_time).supports(0.0)).map_err(|_| {
-            let weight = rig.mass * rig.gravity;
-            Error::parameter(
-                "contact.normal_stiffness",
-                format!("{} N/m", rig.normal.stiffness),
-                format!(
-                    "so large that the weight {weight} N rests on both contacts with overlaps far below the radius"
-                ),
-                "Raise it, or lower disk.mass, tilt or the amplitude of the supports.",
-            )
-        })?;
         let place = [rest[0], rest[1] + values.real("disk.drop_height"), 0.0];
         let rates = [0.0, 0.0, values.real("disk.initial_angular_velocity")];
         let engine = DiskOnTwoSupports::new(
@@ -283,7 +264,8 @@ impl<E: DiskOnTwoSupportsDrive> Model for DiskOnTwoSupportsScene<E> {
             contacts: engine.observe().contacts,
             engine,
             start_energy: 0.0,
-            most_work: MOST_WORK_IN_A_CALL,
+            work_limit: WorkLimit::new(start_time, 1, values),
+            start_time,
             begun: Begun {
                 time: start_time,
                 upward: 0.0,
@@ -309,7 +291,7 @@ impl<E: DiskOnTwoSupportsDrive> Model for DiskOnTwoSupportsScene<E> {
     }
 
     fn limit_work(&mut self, most: u64) {
-        self.most_work = most;
+        self.work_limit.replace(most);
     }
 
     fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {

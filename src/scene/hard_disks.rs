@@ -9,7 +9,7 @@ use crate::error::are_sane;
 
 use super::base_drive::BaseDrive;
 use super::disks_on_base::DisksOnBase;
-use super::{Error, Result, Row, Unit, Values, Warning};
+use super::{Error, Result, Row, Unit, Values, Warning, work_limit};
 
 /// A base that a scene of hard disks can stand on.
 pub trait HardBase: VibratingBase {
@@ -67,17 +67,23 @@ impl HardBase for Moving<FollowsInput> {
     }
 }
 
-/// The refusal of a step that an event-driven engine could not finish; `partner` names walls and the edge of a shell.
+/// The refusal of a step that an event-driven engine could not finish; `partner` names walls and the edge of a shell, `crowded`
+/// says what makes many events.
 pub fn refused_step(
     scene: &'static str,
     stop: EventDrivenStop,
     partner: impl FnOnce(Partner) -> &'static str,
     remedy: &str,
+    crowded: &str,
 ) -> Error {
     let stop = match stop {
         EventDrivenStop::NoHeadway(stop) => stop,
         EventDrivenStop::TooManyEvents { time, most } => {
-            return Error::too_much_work(scene, time, format!("more than {most} events"));
+            let asked = match most {
+                0 => "events beyond those of the seconds simulated so far".into(),
+                _ => format!("more than {most} events"),
+            };
+            return work_limit::refusal(scene, time, &asked, crowded);
         }
     };
     let partner = match stop.partner {
@@ -235,7 +241,7 @@ mod tests {
                 disk,
                 partner: Partner::Disk(6),
             };
-            refused_step("packing", EventDrivenStop::NoHeadway(stop), |_| "the base", "Wait.").to_string()
+            refused_step("packing", EventDrivenStop::NoHeadway(stop), |_| "the base", "Wait.", "").to_string()
         };
         let end = "the last of disk 2 with disk 7. Wait.";
         assert!(message(0.0).ends_with(&format!("100000 events at one instant, {end}")));

@@ -29,6 +29,7 @@ pub mod ratchet;
 mod recipe;
 pub mod soft_disks;
 pub mod wedge;
+mod work_limit;
 
 pub use any_simulation::{AnySimulation, Selection};
 pub use fmi_component::{

@@ -16,13 +16,14 @@ use crate::engine::event_driven::{
     self, Counts, EventDriven, EventDrivenState, Moving, Observer, PeriodicAcross, Sawtooth, Settings, Unobserved,
     VibratingBase,
 };
-use crate::engine::{DiskMotion, Engine, MOST_WORK_IN_A_CALL, WorkBudget};
+use crate::engine::{DiskMotion, Engine};
 use crate::error::are_sane;
 use crate::measure::Transport;
 
 use super::base_drive::BaseDrive;
 use super::disks_on_base::{DisksOnBase, StepReport, complete};
 use super::hard_disks::{HardBase, HardDisksOnBase};
+use super::work_limit::WorkLimit;
 use super::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Values, Warning, info};
 pub use fields::Resolution;
 use refusals::{impossible_motion, refusal};
@@ -48,8 +49,7 @@ pub struct Ratchet<D: BoundedDrive> {
     layers: f64,
     /// Ceiling less the height of the teeth and the widest disk \[m\]: farther up the base would crush it.
     headroom: f64,
-    /// Work that one call may do.
-    most_work: u64,
+    work_limit: WorkLimit,
     /// Total energy at the start \[J\].
     start_energy: f64,
     report: StepReport,
@@ -122,7 +122,7 @@ where
             let change = |boundary: &mut Sawtooth<D>| boundary.set_base(base);
             self.engine.change_boundary(from, observer, change);
         }
-        let mut budget = WorkBudget::at_most(self.most_work);
+        let mut budget = self.work_limit.budget(self.engine.work_done(), end_time);
         let mark = values.real("measure.mark");
         if mark != self.averages.mark {
             self.averages.transport.restart(from);
@@ -251,7 +251,7 @@ where
             gravity,
             inertia_factor,
             headroom,
-            most_work: MOST_WORK_IN_A_CALL,
+            work_limit: WorkLimit::new(start_time, disks.len(), values),
             start_energy: 0.0,
             report,
             averages,
@@ -269,7 +269,7 @@ where
     }
 
     fn limit_work(&mut self, most: u64) {
-        self.most_work = most;
+        self.work_limit.replace(most);
     }
 
     fn state(&self) -> Self::State {

@@ -4,7 +4,7 @@
 use crate::contact::{ContactLaws, NormalForce, TangentialSpring};
 use crate::engine::dem::{Breakdown, TimeStepLimits};
 
-use super::{Error, Result, Row, Values};
+use super::{Error, Result, Row, Values, work_limit};
 
 /// What the time step of one disk depends on besides its drive: its fastest mode, and the choice of the user.
 pub const STEP_OF_ONE_DISK: &[&str] = &[
@@ -87,7 +87,9 @@ pub fn refused_step(scene: &'static str, breakdown: Breakdown) -> Error {
         ),
         Breakdown::TooManySteps { time, steps, most } => {
             let asked = format!("{steps:e} time steps (at most {most:e} for these disks)");
-            return Error::too_much_work(scene, time, asked);
+            let reason =
+                "Light disks, stiff or damped contacts and fast drives make the time step small: see chosen_time_step.";
+            return work_limit::refusal(scene, time, &asked, reason);
         }
     };
     Error::Step {

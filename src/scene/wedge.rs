@@ -12,7 +12,7 @@ mod soft;
 use serde::{Deserialize, Serialize};
 
 use crate::drive::{FollowsInput, Motion, Sine};
-use crate::engine::{DiskMotion, MOST_WORK_IN_A_CALL, WorkBudget};
+use crate::engine::DiskMotion;
 use crate::error::are_sane;
 use crate::measure::BatchMeans;
 
@@ -20,6 +20,7 @@ use super::disks_on_base::{
     BaseRows, DisksOnBase, StepReport, complete, heights, horizontal_positions, mean_angular_velocity, mean_velocity,
     names, rotations,
 };
+use super::work_limit::WorkLimit;
 use super::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning};
 use engine::AtStart;
 pub use engine::{SpecificEnergies, WedgeEngine};
@@ -64,8 +65,7 @@ pub struct Wedge<E: WedgeEngine> {
     mass: f64,
     /// R / (A omega_b) \[s\]: what scales an angular velocity.
     scale: f64,
-    /// Work that one call may do.
-    most_work: u64,
+    work_limit: WorkLimit,
     report: StepReport,
     /// The angle turned, read at the ends of batches.
     turning: BatchMeans,
@@ -118,7 +118,7 @@ impl<E: WedgeEngine> Wedge<E> {
 
     /// Runs to `end_time`, reading the angle wherever a batch ends. Observing costs nothing of what follows.
     fn run(&mut self, end_time: f64) -> Result<()> {
-        let mut budget = WorkBudget::at_most(self.most_work);
+        let mut budget = self.work_limit.budget(0, end_time);
         while self.turning.due() <= end_time {
             let due = self.turning.due();
             self.engine.advance_within(due, &mut budget).map_err(E::refused_step)?;
@@ -265,7 +265,7 @@ impl<E: WedgeEngine> Model for Wedge<E> {
             backup: engine.copied_state(),
             engine,
             mass: values.real("disk.mass"),
-            most_work: MOST_WORK_IN_A_CALL,
+            work_limit: WorkLimit::new(start_time, 1, values),
             scale: values.real("disk.radius") / speed,
             report: StepReport::at_start(start_time),
             turning: BatchMeans::new(since, FIRST_BATCH),
@@ -297,7 +297,7 @@ impl<E: WedgeEngine> Model for Wedge<E> {
     }
 
     fn limit_work(&mut self, most: u64) {
-        self.most_work = most;
+        self.work_limit.replace(most);
     }
 
     fn state(&self) -> Self::State {

@@ -2,7 +2,7 @@
 //!
 //! Source: FMI 2.0 sections 2.2.1, 2.2.7 and 2.2.9; FMI 3.0 sections 2.4.1 and 2.4.7.
 
-use fmi_component::{Error, Kind, ModelInfo, Result, TIME, Variable};
+use fmi_component::{Error, Kind, ModelInfo, Result, TIME, Value, Variable};
 
 /// Checks what the files of an FMU are made from.
 ///
@@ -90,7 +90,7 @@ fn check_variable(variable: &Variable) -> Result<()> {
         if min.is_nan() || max.is_nan() || min > max {
             return Err(Error::parameter(
                 format!("range of {name}"),
-                format!("from {min} to {max}"),
+                format!("from {} to {}", Value::Real(min), Value::Real(max)),
                 "from a number to one that is not smaller",
                 "Give the smallest allowed value first.",
             ));

@@ -1,8 +1,10 @@
 //! A model with all that is decided when its FMU is written: what every file of the FMU is made from.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use fmi_component::{Kind, ModelInfo, ModelType, Result, StructuralParameters, Table, Variable, arrays, token};
+use fmi_component::handle::describe;
+use fmi_component::{Error, Kind, ModelInfo, ModelType, Result, StructuralParameters, Table, Variable, arrays, token};
 
 use crate::check::check;
 
@@ -45,11 +47,12 @@ impl Component {
     ///
     /// # Errors
     /// A structural parameter that the model does not have, or out of its range; variables or facts of the model that no
-    /// importer would read.
+    /// importer would read; a panic of the model.
     pub fn new(model: &ModelType, structure: &[(&str, u32)]) -> Result<Self> {
-        let info = (model.info)();
+        let info = catch_defect("the facts of the model", model.info)?;
         let structure = StructuralParameters::choose(&info, structure)?;
-        let table = Arc::new(Table::try_new((model.variables)(&structure))?);
+        let variables = catch_defect("the variables of the model", || (model.variables)(&structure))?;
+        let table = Arc::new(Table::try_new(variables)?);
         check(&info, table.variables())?;
         Ok(Self {
             model: *model,
@@ -124,6 +127,15 @@ impl Component {
     pub(crate) fn is_array(&self, position: usize) -> bool {
         self.arrays && arrays::begins(&self.table.variables()[position])
     }
+}
+
+/// What `work` gives, which runs code of the model; a panic of it as an error.
+///
+/// # Errors
+/// The model panics.
+pub(crate) fn catch_defect<T>(what: &str, work: impl FnOnce() -> T) -> Result<T> {
+    catch_unwind(AssertUnwindSafe(work))
+        .map_err(|panic| Error::call(format!("{what}: {}", describe(&*panic)), "The model has to be mended."))
 }
 
 /// The nominal value of a real input.

@@ -2,7 +2,7 @@
 
 use std::env::consts::{ARCH, OS};
 
-use fmi_component::{Causality, Kind, Variable, Version, value_reference};
+use fmi_component::{Causality, Kind, Value, Variable, Version, value_reference};
 use quick_xml::escape::escape;
 
 use crate::component::Component;
@@ -130,12 +130,12 @@ fn table_row(name: &str, position: usize, variable: &Variable) -> String {
     let (unit, range, start) = match &variable.kind {
         Kind::Real(quantity) => {
             let range = match (quantity.min.is_finite(), quantity.max.is_finite()) {
-                (true, true) => format!("{} to {}", quantity.min, quantity.max),
-                (true, false) => format!("from {}", quantity.min),
-                (false, true) => format!("to {}", quantity.max),
+                (true, true) => format!("{} to {}", Value::Real(quantity.min), Value::Real(quantity.max)),
+                (true, false) => format!("from {}", Value::Real(quantity.min)),
+                (false, true) => format!("to {}", Value::Real(quantity.max)),
                 (false, false) => String::new(),
             };
-            (quantity.unit.name, range, quantity.start.to_string())
+            (quantity.unit.name, range, variable.start().to_string())
         }
         Kind::Integer { range, start } | Kind::Long { range, start } => {
             ("", format!("{} to {}", range.start(), range.end()), start.to_string())

@@ -12,7 +12,7 @@ use std::ptr::{null, null_mut};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use fmi_component::{Error, Result};
+use fmi_component::{Error, Result, Unit};
 
 /// `fmi3Instance`.
 type Opaque = *mut c_void;
@@ -199,8 +199,11 @@ impl Instance {
         if (reached - end).abs() <= 1e-9 * step {
             return Ok(());
         }
-        let what = format!("its library ended the step to {end} s at {reached} s");
-        Err(Error::call(what, MAKE_ANEW))
+        let (end, reached) = (Unit::SECOND.format(end), Unit::SECOND.format(reached));
+        Err(Error::call(
+            format!("its library ended the step to {end} at {reached}"),
+            MAKE_ANEW,
+        ))
     }
 
     fn check(&self, function: &str, status: c_int) -> Result<()> {

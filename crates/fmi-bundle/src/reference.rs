@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 
 use fmi_component::{Causality, DynSimulation, Error, ModelInfo, Result, Table, Value};
 
-use crate::component::Component;
+use crate::component::{Component, catch_defect};
 
 /// Longest communication step \[s\].
 const LONGEST_STEP: f64 = 1.0 / 1024.0;
@@ -35,8 +35,12 @@ pub fn is_path(path: &str) -> bool {
 /// Runs the model.
 ///
 /// # Errors
-/// The table cannot be written.
+/// The table cannot be written; the model panics, which is a defect of it.
 pub fn record(component: &Component) -> Result<String> {
+    catch_defect("the reference trajectory", || run(component))?
+}
+
+fn run(component: &Component) -> Result<String> {
     let table = component.table();
     let (inputs, outputs) = (of(table, Causality::Input), of(table, Causality::Output));
     let name = |position: &usize| table.variables()[*position].name.as_str();

@@ -77,6 +77,30 @@ fn an_fmu_holds_what_each_standard_asks_for() {
     }
 }
 
+/// A model that panics is told of; the program that bundles it goes on.
+#[test]
+fn a_panic_of_the_model_is_an_error() {
+    let in_a_run = ModelType {
+        prepare: |_| panic!("set to panic"),
+        ..MODEL
+    };
+    let component = Component::new(&in_a_run, &[]).unwrap();
+    let message = pack(&component, Version::Three, b"").unwrap_err().to_string();
+    assert!(
+        message.contains("the reference trajectory") && message.contains("set to panic"),
+        "{message}"
+    );
+    let in_its_rows = ModelType {
+        variables: |_| panic!("set to panic"),
+        ..MODEL
+    };
+    let message = Component::new(&in_its_rows, &[]).unwrap_err().to_string();
+    assert!(
+        message.contains("the variables of the model") && message.contains("set to panic"),
+        "{message}"
+    );
+}
+
 #[test]
 fn the_model_description_says_what_is_there() {
     let (two, three) = (

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::unit::Unit;
+
 /// Every refusal of the library. Nothing is silently repaired.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Error {
@@ -18,7 +20,7 @@ pub enum Error {
         remedy: String,
     },
     /// A step that cannot be done. The state is the one before the step, so that the caller may retry.
-    #[error("{model}: step refused at t = {time} s: {what}. {remedy}")]
+    #[error("{model}: step refused at t = {}: {what}. {remedy}", Unit::SECOND.format(*.time))]
     Step {
         /// The model's name.
         model: &'static str,

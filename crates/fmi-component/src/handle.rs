@@ -12,14 +12,22 @@ use std::any::Any;
 use std::cell::UnsafeCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 /// A T in a caller's hands. WORD is another for each kind.
 #[repr(C)] // the word comes first: it is read before anything is known of the rest
 pub struct Handle<T, const WORD: u64> {
     word: AtomicU64,
     busy: AtomicBool,
+    /// Calls that did not get in and could not be told of: see [`Handle::note_barred`].
+    barred: Mutex<Vec<&'static str>>,
+    /// Whether there are any: looked at by every call.
+    has_barred: AtomicBool,
     content: UnsafeCell<T>,
 }
+
+/// Calls that are noted at most: a caller that asks again and again while another call is under way says nothing new.
+const MOST_NOTES: usize = 8;
 
 /// Why a call does not get in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,8 +62,42 @@ impl<T, const WORD: u64> Handle<T, WORD> {
         Box::into_raw(Box::new(Self {
             word: AtomicU64::new(WORD),
             busy: AtomicBool::new(false),
+            barred: Mutex::default(),
+            has_barred: AtomicBool::new(false),
             content: UnsafeCell::new(content),
         }))
+    }
+
+    /// Notes the name of a call that was barred since another was under way: what is needed to tell of it is in the content,
+    /// which is lent. Whoever has it asks [`Handle::take_barred`].
+    ///
+    /// # Safety
+    /// As for [`Handle::enter`].
+    pub unsafe fn note_barred(pointer: *const Self, call: &'static str) {
+        // SAFETY: by the caller's promise.
+        if let Ok(handle) = unsafe { Self::alive(pointer) } {
+            let mut barred = handle.barred.lock().unwrap_or_else(PoisonError::into_inner);
+            if barred.len() < MOST_NOTES {
+                barred.push(call);
+            }
+            handle.has_barred.store(true, Ordering::Release);
+        }
+    }
+
+    /// Names of the calls that were noted since the last time.
+    ///
+    /// # Safety
+    /// As for [`Handle::enter`].
+    pub unsafe fn take_barred(pointer: *const Self) -> Vec<&'static str> {
+        // SAFETY: by the caller's promise.
+        match unsafe { Self::alive(pointer) } {
+            Ok(handle) if handle.has_barred.load(Ordering::Acquire) => {
+                let mut barred = handle.barred.lock().unwrap_or_else(PoisonError::into_inner);
+                handle.has_barred.store(false, Ordering::Release);
+                std::mem::take(&mut *barred)
+            }
+            _ => Vec::new(),
+        }
     }
 
     /// Does `work` with the content under its lock.
@@ -201,6 +243,21 @@ mod tests {
         let inside = unsafe { Counter::enter(counter, |_| (increase(counter), free(counter))) };
         assert_eq!(inside, Ok((Err(Barred::Busy), Err(Barred::Busy))));
         assert_eq!((increase(counter), free(counter)), (Ok(1), Ok(())));
+    }
+
+    #[test]
+    fn barred_calls_are_noted_up_to_a_few_and_taken_once() {
+        let counter = Counter::hand_out(0);
+        let note = || unsafe { Counter::note_barred(counter, "set") };
+        let taken = unsafe {
+            Counter::enter(counter, |_| {
+                (0..100).for_each(|_| note());
+                (Counter::take_barred(counter), Counter::take_barred(counter))
+            })
+        };
+        assert_eq!(taken, Ok((vec!["set"; MOST_NOTES], vec![])));
+        assert_eq!(unsafe { Counter::take_barred(null()) }, Vec::<&str>::new());
+        assert_eq!(free(counter), Ok(()));
     }
 
     #[test]

@@ -16,8 +16,9 @@ use crate::life_cycle::{Call, Phase};
 use crate::model::Warning;
 use crate::standard::TOLERANCE;
 use crate::table::Table;
-use crate::times::check_time;
+use crate::times::check_start;
 use crate::token;
+use crate::unit::Unit;
 use crate::value::Value;
 use crate::variable::{Causality, Kind};
 pub use saving::Snapshot;
@@ -101,6 +102,11 @@ impl Instance {
         self.simulation.time()
     }
 
+    /// Parameters and inputs.
+    pub fn values(&self) -> &[Value] {
+        self.simulation.values().as_slice()
+    }
+
     /// Token that it was made with.
     pub fn token(&self) -> &str {
         &self.token
@@ -152,12 +158,12 @@ impl Instance {
     /// Wrong phase; a start too far from zero to be simulated; times that are not finite or not in order.
     pub fn set_up(&mut self, start: f64, stop: Option<f64>) -> Result<()> {
         Call::SetupExperiment.check(self.phase)?;
-        check_time("start time", start)?;
+        check_start(start)?;
         if let Some(stop) = stop.filter(|stop| !stop.is_finite() || *stop < start) {
             return Err(Error::parameter(
                 "stop time",
-                stop,
-                format!("finite and not before the start time {start} s"),
+                Unit::SECOND.format(stop),
+                format!("finite and not before the start time {}", Unit::SECOND.format(start)),
                 "Give such a time or leave it undefined.",
             ));
         }

@@ -5,6 +5,11 @@ use std::ffi::{CStr, c_char};
 
 use crate::error::{Error, Result};
 
+/// What to pass where one value is read or written.
+const ONE: &str = "Pass the address of one value.";
+/// What to pass where the caller says how many there are.
+const MANY: &str = "Pass an array of the length that is given with it.";
+
 /// The caller's array as a slice. Null is legal when `count` is 0.
 ///
 /// # Safety
@@ -16,7 +21,7 @@ pub unsafe fn slice<'a, T>(pointer: *const T, count: usize, name: &str) -> Resul
     if count == 0 {
         return Ok(&[]);
     }
-    check(pointer, count, name)?;
+    check(pointer, count, name, MANY)?;
     // SAFETY: not null, aligned and of a possible size (checked); readable by the caller's promise.
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
 }
@@ -37,7 +42,7 @@ impl<T> Output<T> {
     /// Null, misaligned or impossibly long.
     pub unsafe fn new(pointer: *mut T, count: usize, name: &str) -> Result<Self> {
         if count > 0 {
-            check(pointer, count, name)?;
+            check(pointer, count, name, MANY)?;
         }
         Ok(Self { pointer, count })
     }
@@ -71,7 +76,7 @@ impl<T> Output<T> {
 /// # Errors
 /// Null or misaligned.
 pub unsafe fn read<T: Copy>(pointer: *const T, name: &str) -> Result<T> {
-    check(pointer, 1, name)?;
+    check(pointer, 1, name, ONE)?;
     // SAFETY: not null and aligned (checked); readable by the caller's promise.
     Ok(unsafe { pointer.read() })
 }
@@ -84,7 +89,7 @@ pub unsafe fn read<T: Copy>(pointer: *const T, name: &str) -> Result<T> {
 /// # Errors
 /// Null or misaligned.
 pub unsafe fn write<T>(pointer: *mut T, value: T, name: &str) -> Result<()> {
-    check(pointer, 1, name)?;
+    check(pointer, 1, name, ONE)?;
     // SAFETY: not null and aligned (checked); writable by the caller's promise.
     unsafe { pointer.write(value) };
     Ok(())
@@ -98,7 +103,7 @@ pub unsafe fn write<T>(pointer: *mut T, value: T, name: &str) -> Result<()> {
 /// # Errors
 /// Null or not UTF-8.
 pub unsafe fn text(pointer: *const c_char, name: &str) -> Result<String> {
-    check(pointer, 1, name)?;
+    check(pointer, 1, name, "Pass a text that ends with a zero byte.")?;
     // SAFETY: not null (checked); zero-terminated by the caller's promise.
     let bytes = unsafe { CStr::from_ptr(pointer) };
     bytes
@@ -121,7 +126,7 @@ pub fn check_length(count: usize, expected: usize, name: &str) -> Result<()> {
     ))
 }
 
-fn check<T>(pointer: *const T, count: usize, name: &str) -> Result<()> {
+fn check<T>(pointer: *const T, count: usize, name: &str, remedy: &str) -> Result<()> {
     let fault = if pointer.is_null() {
         "is a null pointer"
     } else if !pointer.is_aligned() {
@@ -131,8 +136,5 @@ fn check<T>(pointer: *const T, count: usize, name: &str) -> Result<()> {
     } else {
         return Ok(());
     };
-    Err(Error::call(
-        format!("{name} {fault}"),
-        "Pass an array of the length that is given with it.",
-    ))
+    Err(Error::call(format!("{name} {fault}"), remedy))
 }

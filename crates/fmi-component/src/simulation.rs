@@ -4,6 +4,7 @@
 //! state brings back the same bits. Not here: models chosen at run time ([`DynSimulation`](crate::DynSimulation)), the life
 //! cycle of FMI.
 
+mod refusal;
 mod saving;
 
 use std::sync::Arc;
@@ -13,10 +14,12 @@ use crate::model::{Model, Reached, Warning};
 use crate::row::{Read, Row};
 use crate::structure::StructuralParameters;
 use crate::table::Table;
-use crate::times::check_time;
+use crate::times::{check_start, check_time};
+use crate::unit::Unit;
 use crate::value::Value;
 use crate::values::Values;
 use crate::variable::{Causality, Variable};
+use refusal::name_what_was_set;
 pub use saving::Saved;
 
 /// One run of a model.
@@ -72,7 +75,7 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// A time that is not simulated, or values that the model refuses. All is then as before.
     pub fn start(&mut self, time: f64) -> Result<()> {
-        check_time("start time", time)?;
+        check_start(time)?;
         self.model = Some(self.build(time, &self.values)?);
         (self.start, self.time) = (time, time);
         Ok(())
@@ -83,10 +86,10 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// A time that is not simulated, or the simulation has started.
     pub fn set_start_time(&mut self, time: f64) -> Result<()> {
-        check_time("start time", time)?;
+        check_start(time)?;
         if self.is_started() {
             return Err(Error::call(
-                format!("the simulation has started at {} s", self.start),
+                format!("the simulation has started at {}", Unit::SECOND.format(self.start)),
                 "Stop it first.",
             ));
         }
@@ -202,8 +205,11 @@ impl<M: Model> Simulation<M> {
         if end_time <= self.time {
             return Err(Error::parameter(
                 "end of the step",
-                format!("{end_time} s"),
-                format!("a time after {} s, where the last step ended", self.time),
+                Unit::SECOND.format(end_time),
+                format!(
+                    "a time after {}, where the last step ended",
+                    Unit::SECOND.format(self.time)
+                ),
                 "Steps go forward in time.",
             ));
         }
@@ -364,7 +370,8 @@ impl<M: Model> Simulation<M> {
     }
 
     fn build(&self, start: f64, values: &Values) -> Result<M> {
-        let mut model = M::new(&self.structure, start, values)?;
+        let model = M::new(&self.structure, start, values);
+        let mut model = model.map_err(|error| name_what_was_set(error, values))?;
         if let Some(most) = self.most_work {
             model.limit_work(most);
         }

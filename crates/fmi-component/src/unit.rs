@@ -1,5 +1,7 @@
 //! Units of the variables: name, exponents of the SI base units, physical quantity and the unit in which people think.
 
+use crate::value::Value;
+
 /// A unit with all that a model description says of it.
 ///
 /// ```
@@ -49,8 +51,9 @@ impl Unit {
         self
     }
 
-    /// `number` with its unit as a text; the number alone where it is a pure number.
+    /// `number` with its unit as a text, as short as that of a [`Value`]; the number alone where it is a pure number.
     pub fn format(&self, number: f64) -> String {
+        let number = Value::Real(number);
         match self.name {
             "1" => number.to_string(),
             name => format!("{number} {name}"),

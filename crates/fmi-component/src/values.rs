@@ -1,11 +1,14 @@
 //! The values of parameters and inputs. What a model computes is read from the model.
+//!
+//! A model never sees the real -0.0: it is stored as 0.0, the same number. A model that divides by a parameter would else tell
+//! the two apart, and take a damping of -0.0 for a time of minus infinity.
 
 use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::table::Table;
 use crate::value::Value;
-use crate::variable::{Causality, Variable};
+use crate::variable::Causality;
 
 /// The present value of every parameter and input of a [`Table`].
 #[derive(Debug, Clone)]
@@ -23,7 +26,11 @@ impl PartialEq for Values {
 impl Values {
     /// Start values.
     pub fn new(table: Arc<Table>) -> Self {
-        let values = table.settable().iter().map(Variable::start).collect();
+        let values = table
+            .settable()
+            .iter()
+            .map(|variable| stored(variable.start()))
+            .collect();
         Self { table, values }
     }
 
@@ -57,7 +64,7 @@ impl Values {
             });
         };
         variable.check(value)?;
-        self.values[position] = value;
+        self.values[position] = stored(value);
         Ok(())
     }
 
@@ -67,7 +74,9 @@ impl Values {
     /// Another number of values, another type, or out of range. Nothing is stored then.
     pub fn put_back(&mut self, values: &[Value]) -> Result<()> {
         self.check_all(values)?;
-        self.values.copy_from_slice(values);
+        for (own, value) in self.values.iter_mut().zip(values) {
+            *own = stored(*value);
+        }
         Ok(())
     }
 
@@ -88,19 +97,15 @@ impl Values {
             .try_for_each(|(variable, value)| variable.check(*value))
     }
 
-    /// Whether all parameters are the same, bit by bit, since a model may tell 0.0 from -0.0.
+    /// Whether all parameters are the same, as they would be stored.
     pub fn same_parameters(&self, others: &[Value]) -> bool {
-        let bits = |value: &Value| match value {
-            Value::Real(real) => real.to_bits(),
-            Value::Integer(integer) => *integer as u64,
-        };
         let pairs = self.values.iter().zip(others);
         self.table
             .settable()
             .iter()
             .zip(pairs)
             .filter(|(variable, _)| variable.causality == Causality::Parameter)
-            .all(|(_, (one, other))| bits(one) == bits(other))
+            .all(|(_, (one, other))| one == other)
     }
 
     /// The real called `name`. A name that the model does not list is a defect of the model and panics.
@@ -121,5 +126,13 @@ impl Values {
 
     fn by_name(&self, name: &str) -> Option<Value> {
         self.table.position(name).and_then(|position| self.get(position))
+    }
+}
+
+/// The value as it is kept: zero has no sign, since -0.0 + 0.0 is 0.0. All other numbers stay as they are.
+fn stored(value: Value) -> Value {
+    match value {
+        Value::Real(real) => Value::Real(real + 0.0),
+        integer => integer,
     }
 }

@@ -115,6 +115,14 @@ impl Variable {
         }
     }
 
+    /// `value` as a text with the unit of this variable; of an enumeration its number.
+    pub fn text(&self, value: Value) -> String {
+        match (&self.kind, value) {
+            (Kind::Real(quantity), Value::Real(real)) => quantity.unit.format(real),
+            _ => value.to_string(),
+        }
+    }
+
     /// Value that `text` stands for; of an enumeration the name of an option or its number. The range is not checked.
     ///
     /// # Errors
@@ -171,7 +179,11 @@ impl Variable {
         let in_range = "Give a value in this range.";
         let (value, allowed, remedy) = match (&self.kind, value) {
             (Kind::Real(quantity), Value::Real(real)) => {
-                let allowed = format!("a finite number from {} to {}", quantity.min, quantity.max);
+                let allowed = format!(
+                    "a finite number from {} to {}",
+                    Value::Real(quantity.min),
+                    Value::Real(quantity.max)
+                );
                 (quantity.unit.format(real), allowed, in_range)
             }
             (Kind::Integer { range, .. } | Kind::Long { range, .. }, Value::Integer(integer)) => {
@@ -191,7 +203,7 @@ impl Variable {
                 "Set it as a real variable.",
             ),
             (_, Value::Real(real)) => (
-                real.to_string(),
+                Value::Real(real).to_string(),
                 "a whole number".into(),
                 "Set it as an integer variable.",
             ),

@@ -33,6 +33,37 @@ fn refusals_name_variable_and_remedy() {
     assert!(message_of(bodies(5).value(100_000)).contains("0 to 16"));
 }
 
+/// A model that divides by a damping would take -0.0 for a rate of minus infinity.
+#[test]
+fn a_model_sees_no_negative_zero() {
+    let bits = |row: &Oscillation, name: &str| row.real(name).map(f64::to_bits);
+    let given = [("damper.damping", (-0.0).into())];
+    let mut row = Oscillation::new(&[("bodies", 2)], &given).unwrap();
+    row.set("frame.position", -0.0).unwrap();
+    assert_eq!(bits(&row, "damper.damping"), Ok(0));
+    assert_eq!(bits(&row, "frame.position"), Ok(0));
+    let negative: Vec<Value> = (row.values().as_slice().iter())
+        .map(|value| match value {
+            Value::Real(0.0) => Value::Real(-0.0),
+            other => *other,
+        })
+        .collect();
+    let mut values = row.values().clone();
+    values.put_back(&negative).unwrap();
+    assert!(values.same_parameters(&negative));
+    assert_eq!(values.real("frame.velocity").to_bits(), 0);
+    for variable in row
+        .variables()
+        .iter()
+        .filter(|variable| variable.causality.is_settable())
+    {
+        let Value::Real(real) = values.get(row.position(&variable.name).unwrap()).unwrap() else {
+            continue;
+        };
+        assert!(real.to_bits() != (-0.0_f64).to_bits(), "{}", variable.name);
+    }
+}
+
 #[test]
 fn refused_calls_change_nothing() {
     let mut row = bodies(5);

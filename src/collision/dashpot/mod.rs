@@ -13,8 +13,8 @@ mod table;
 use serde::{Deserialize, Serialize};
 
 use super::{CollisionLaw, Impact, checked};
-use crate::contact::LinearDashpot;
-use crate::error::{Error, Result};
+use crate::contact::{LinearDashpot, NO_FRICTION};
+use crate::error::{Error, Result, Shortest};
 use oscillator::Oscillator;
 use stick_slip::{StickSlip, TangentialSpring};
 pub use table::TabulatedDashpot;
@@ -45,7 +45,12 @@ impl Dashpot {
         let name = "contact.normal_stiffness";
         if !(normal_stiffness.is_finite() && normal_stiffness > 0.0) {
             let remedy = "Give the stiffness of the contact in N/m.";
-            return Err(Error::parameter(name, normal_stiffness, "above 0, finite", remedy));
+            return Err(Error::parameter(
+                name,
+                Shortest(normal_stiffness),
+                "above 0, finite",
+                remedy,
+            ));
         }
         let remedy = "0 has no tangential spring: surfaces pass each other freely.";
         Ok(Self {
@@ -93,7 +98,7 @@ impl Dashpot {
     ///
     /// `effective_mass` m_eff and `tangential_mass` alpha in kg. At ratio 0 the limit of small ratios.
     pub fn tangential_restitution(&self, effective_mass: f64, tangential_mass: f64, ratio: f64) -> f64 {
-        if self.friction == 0.0 || self.stiffness_ratio == 0.0 {
+        if self.slides_freely() {
             return 1.0;
         }
         let stick_slip = self.stick_slip(effective_mass, effective_mass / tangential_mass);
@@ -119,6 +124,11 @@ impl Dashpot {
         } else {
             start + slide * (1.0 + self.normal_restitution(effective_mass))
         }
+    }
+
+    /// Whether there is no tangential impulse, or none that rounding leaves anything of.
+    fn slides_freely(&self) -> bool {
+        self.friction < NO_FRICTION || self.stiffness_ratio < NO_FRICTION
     }
 
     fn normal(&self) -> LinearDashpot {
@@ -152,7 +162,7 @@ impl CollisionLaw for Dashpot {
 
     /// Under a wrapper that changes the normal impulse, this is the tangential impulse of the impact that has it.
     fn tangential_impulse(&self, impact: &Impact, normal_impulse: f64) -> f64 {
-        if self.friction == 0.0 || self.stiffness_ratio == 0.0 || impact.tangential_velocity == 0.0 {
+        if self.slides_freely() || impact.tangential_velocity == 0.0 {
             return 0.0;
         }
         let limit = self.friction * normal_impulse;

@@ -193,7 +193,7 @@ impl Class {
             pieces: Vec::new(),
             guide: [0; CELLS],
         };
-        if law.friction == 0.0 || law.stiffness_ratio == 0.0 {
+        if law.slides_freely() {
             class.pieces.push(Piece {
                 end: 1.0,
                 start: 0.0,

@@ -39,7 +39,8 @@ impl TimeStepLimits {
     pub fn verlet<N: NormalForce>(laws: &ContactLaws<N>, masses: &[f64], drive_frequency: Option<f64>) -> Self {
         let mass = smallest_effective_mass(masses);
         let period = TAU * (mass / largest_stiffness(laws)).sqrt();
-        let damping_time = mass / laws.normal.damping();
+        // No comparison finds a time of minus infinity, which a damping of -0.0 has.
+        let damping_time = mass / laws.normal.damping().abs();
         let drive_period = period_of(drive_frequency);
         Self {
             default: (period / 100.0).min(damping_time / 30.0).min(drive_period / 100.0),
@@ -57,7 +58,7 @@ impl TimeStepLimits {
     pub fn event_located(laws: &ContactLaws, masses: &[f64], drive_frequency: Option<f64>, tolerance: f64) -> Self {
         let mass = smallest_effective_mass(masses);
         let oscillation = largest_stiffness(laws) / mass;
-        let decay = laws.normal.damping / mass;
+        let decay = (laws.normal.damping / mass).abs();
         let period = TAU / (oscillation + decay * decay).sqrt();
         let shortest = period.min(period_of(drive_frequency));
         let largest = (shortest / FEWEST_STEPS).min(MOST_DAMPING / decay);
@@ -84,7 +85,7 @@ fn smallest_effective_mass(masses: &[f64]) -> f64 {
 
 /// `max(k_n, 3 k_t)` \[N/m\].
 fn largest_stiffness<N: NormalForce>(laws: &ContactLaws<N>) -> f64 {
-    let tangential = if laws.tangential.friction > 0.0 {
+    let tangential = if laws.tangential.acts() {
         3.0 * laws.tangential.stiffness
     } else {
         0.0
@@ -93,5 +94,5 @@ fn largest_stiffness<N: NormalForce>(laws: &ContactLaws<N>) -> f64 {
 }
 
 fn period_of(frequency: Option<f64>) -> f64 {
-    frequency.map_or(f64::INFINITY, |frequency| 1.0 / frequency)
+    frequency.map_or(f64::INFINITY, |frequency| 1.0 / frequency.abs())
 }

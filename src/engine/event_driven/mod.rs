@@ -203,6 +203,12 @@ impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
         &self.state
     }
 
+    /// Work of all events since the start, in units of [`WorkBudget`].
+    pub fn work_done(&self) -> u64 {
+        let events = self.state.counts.events().unwrap_or(u64::MAX);
+        events.saturating_mul(self.work_of_event)
+    }
+
     /// Where the disks live.
     pub fn space(&self) -> &S {
         &self.space

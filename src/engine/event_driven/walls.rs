@@ -111,7 +111,8 @@ impl<W: VibratingBase> Boundary for Walls<W> {
                 velocity: wall.normal.dot(&body.velocity),
                 pull: gravity * wall.normal.y,
             };
-            let delay = if wall.follows_base == 0.0 {
+            // A vertical wall is where it is however the base moves.
+            let delay = if wall.follows_base * wall.normal.y == 0.0 {
                 flight.gap = wall.distance(body.position, 0.0) - body.radius;
                 disk_wall(&flight)
             } else {

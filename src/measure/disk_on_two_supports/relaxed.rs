@@ -7,7 +7,7 @@
 //! `tan^2 theta_0`.
 
 use super::{Corner, Limits, Point, Setting, Tangential};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Shortest};
 
 /// Corners of soft contacts at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,18 +33,23 @@ pub fn relaxed(setting: &Setting, normal_stiffness: f64, support_radius: f64) ->
     let arms = setting.radius + support_radius;
     let softest = 10.0 * setting.weight() / arms;
     if !(normal_stiffness >= softest && normal_stiffness.is_finite()) {
-        let allowed = format!("{softest} N/m or more, so that the overlap is small");
+        let allowed = format!("{} N/m or more, so that the overlap is small", Shortest(softest));
         let remedy = "Stiffen the contacts or take a lighter disk.";
         return Err(Error::parameter(
             "contact.normal_stiffness",
-            normal_stiffness,
+            Shortest(normal_stiffness),
             allowed,
             remedy,
         ));
     }
     if !(support_radius > 0.0 && support_radius.is_finite()) {
         let remedy = "Three equal disks have that of the disk.";
-        return Err(Error::parameter("support.radius", support_radius, "above 0", remedy));
+        return Err(Error::parameter(
+            "support.radius",
+            Shortest(support_radius),
+            "above 0",
+            remedy,
+        ));
     }
     Ok(Relaxed {
         setting: *setting,

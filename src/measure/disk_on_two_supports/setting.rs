@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Shortest};
 
 /// One disk on two supports, SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,7 +56,7 @@ impl Setting {
             if !(1e-30..=1e30).contains(&value) {
                 return Err(Error::parameter(
                     name,
-                    value,
+                    Shortest(value),
                     "from 1e-30 to 1e30",
                     "Give it in SI units.",
                 ));
@@ -66,7 +66,7 @@ impl Setting {
             let remedy = "Friction is a ratio of forces.";
             return Err(Error::parameter(
                 "contact.friction",
-                self.friction,
+                Shortest(self.friction),
                 "from 0 to 1e6",
                 remedy,
             ));
@@ -75,7 +75,7 @@ impl Setting {
             let remedy = "Three equal disks that touch have pi/6.";
             return Err(Error::parameter(
                 "half_angle",
-                self.half_angle,
+                Shortest(self.half_angle),
                 "between 0 and pi/2 rad",
                 remedy,
             ));
@@ -83,11 +83,11 @@ impl Setting {
         if self.tilt.is_nan() || self.tilt.abs() >= self.half_angle {
             let allowed = format!(
                 "between -{0} and {0} rad, half the angle between the contacts",
-                self.half_angle
+                Shortest(self.half_angle)
             );
             return Err(Error::parameter(
                 "tilt",
-                self.tilt,
+                Shortest(self.tilt),
                 allowed,
                 "Beyond it the disk rolls off.",
             ));

@@ -4,7 +4,7 @@
 use crate::engine::disk_on_two_supports::{ContactPhase, ENERGY_INPUT, ENERGY_LOST, Sense, SlidingPoint};
 use crate::scene::disks_on_base::names;
 use crate::scene::soft_disks::STEP_OF_ONE_DISK;
-use crate::scene::{Row, Unit};
+use crate::scene::{Row, TIME, Unit};
 
 use super::{DiskOnTwoSupportsDrive, DiskOnTwoSupportsScene};
 
@@ -294,9 +294,14 @@ impl<E: DiskOnTwoSupportsDrive> DiskOnTwoSupportsScene<E> {
                 "detachment.time",
                 Unit::SECOND,
                 1.0,
-                "When a contact opened for the first time; -1 while none has",
-                |scene| scene.record().first_detachment.unwrap_or(-1.0),
-            ),
+                "When a contact opened for the first time; while none has, one second before the start and before zero, which is -1 \
+                 for runs that start at 0 or later",
+                |scene: &Self| {
+                    let never = scene.start_time.min(0.0) - 1.0;
+                    scene.record().first_detachment.unwrap_or(never)
+                },
+            )
+            .depending_on(&names(&[&[TIME]])),
         ]
     }
 

@@ -7,7 +7,7 @@ use crate::engine::disk_on_two_supports::{SupportFrame, TwoSupportsRig};
 use crate::error::{Error, Result};
 use crate::scene::info::GRAVITY;
 use crate::scene::soft_disks::contact_laws;
-use crate::scene::{Row, Unit, Values};
+use crate::scene::{Row, Unit, Values, work_limit};
 
 /// P 4.1, left and right.
 const SHAPES: &[(&str, &str)] = &[
@@ -112,6 +112,7 @@ fn run<M>() -> Vec<Row<M>> {
             "Time step of the integration; 0: half a radian of the fastest mode",
         )
         .with_nominal(1e-5),
+        work_limit::row(),
     ]
 }
 
@@ -129,7 +130,7 @@ pub fn rig(values: &Values) -> Result<TwoSupportsRig> {
     if disks && opening < FRAC_PI_6 * (1.0 - 1e-12) {
         return Err(Error::parameter(
             "support.angle",
-            format!("{opening} rad"),
+            Unit::RADIAN.format(opening),
             format!("at least pi/6 = {FRAC_PI_6} rad between disks"),
             "The supporting disks would overlap: open them or take support.shape walls.",
         ));
@@ -137,8 +138,11 @@ pub fn rig(values: &Values) -> Result<TwoSupportsRig> {
     if tilt.abs() >= opening {
         return Err(Error::parameter(
             "tilt",
-            format!("{tilt} rad"),
-            format!("between -{opening} and {opening} rad, which is support.angle and excluded"),
+            Unit::RADIAN.format(tilt),
+            format!(
+                "between -{0} and {0}, which is support.angle and excluded",
+                Unit::RADIAN.format(opening)
+            ),
             "At this tilt nothing holds the disk on one side: tilt less or raise support.angle.",
         ));
     }

@@ -9,6 +9,7 @@ use crate::geometry::Disk;
 use crate::scene::{Result, Row, Values};
 
 use super::hard::{HardDisks, HardEngine};
+use super::initial_packing;
 
 /// Value of `base.model` for the fixed bottom with a random phase (P 2.3.3); the other is the moving bottom.
 const RANDOM_PHASE: i64 = 1;
@@ -108,11 +109,20 @@ impl HardEngine for EitherBase {
     }
 
     fn from_values(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self> {
-        Ok(if values.integer("base.model") == RANDOM_PHASE {
+        Ok(if Self::draws(values) {
+            initial_packing::check_walls_of_random_phase(values)?;
             Self::RandomPhase(Box::new(HardEngine::from_values(disks, masses, start_time, values)?))
         } else {
             Self::Moving(Box::new(HardEngine::from_values(disks, masses, start_time, values)?))
         })
+    }
+
+    fn draws(values: &Values) -> bool {
+        values.integer("base.model") == RANDOM_PHASE
+    }
+
+    fn work_done(&self) -> u64 {
+        either!(self, run => HardEngine::work_done(&**run))
     }
 
     fn set_target(&mut self, _time: f64, _duration: f64, _values: &Values) {}

@@ -18,6 +18,9 @@ velocity and acceleration; the quintic ends where the polynomial leads that extr
 <code>base.displacement</code>, <code>base.velocity</code> and <code>base.acceleration_input</code>, of degree five at most</li>
 <li>base driven as a sine: <i>y</i> = <i>A</i> sin(2 &pi; <i>f</i> <i>t</i> + <i>&phi;</i>);
 &Gamma; = <i>A</i> (2 &pi; <i>f</i>)<sup>2</sup> / <i>g</i></li>
+<li>side walls: they stand still and rub on disks that the floor carries, or with <code>wall.motion</code> =
+<code>with_base</code> move up and down with the floor, as those of a box on a shaker do; <code>base.reaction_force</code>
+then holds their friction</li>
 </ul>
 <p>Velocity Verlet, with the damping at the velocity of the same instant; the time step is a hundredth of the shortest
 contact period unless <code>time_step</code> sets it. The trajectory lives on its own grid of time and does not depend
@@ -40,6 +43,9 @@ the phases of stick and slip during the impact, stitched exactly and tabulated t
 model), which ends inelastic collapse</li>
 <li>moving bottom: each disk meets the base where and when it is; random phase: the bottom stays and lends each impact the
 velocity that a base of random phase has where it is first met</li>
+<li>side walls: they stand still and rub on disks that the floor carries, or with <code>wall.motion</code> =
+<code>with_base</code> move up and down with the floor, as those of a box on a shaker do; <code>base.reaction_force</code>
+then holds their friction</li>
 </ul>
 <p>Source: G. G. Peraza Mues, Spontaneous rotation in vibrated disk packings, doctoral thesis, Cinvestav M&eacute;rida,
 2018, chapters 2.3 and 4.5.</p>

@@ -3,12 +3,13 @@
 //! Made for strong shaking, Gamma of 2 and more, where lasting contacts are rare (P 3.3).
 
 use crate::drive::{FollowsInput, Motion};
+use crate::engine::DiskMotion;
 use crate::engine::event_driven::{Counts, EventDrivenStop, Moving, Partner};
-use crate::engine::{DiskMotion, MOST_WORK_IN_A_CALL, WorkBudget};
 use crate::error::are_sane;
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, radii};
 use crate::scene::hard_disks::{self, EnergyRows, HardDisksOnBase};
+use crate::scene::work_limit::WorkLimit;
 use crate::scene::{
     Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning, info,
 };
@@ -36,13 +37,12 @@ pub struct HardPacking<E: HardEngine> {
     masses: Vec<f64>,
     radii: Vec<f64>,
     gravity: f64,
-    /// Work that one call may do.
-    most_work: u64,
+    work_limit: WorkLimit,
     report: StepReport,
     /// Total energy at the start \[J\].
     start_energy: f64,
     /// What is doubtful about the start.
-    warning: Option<Warning>,
+    warnings: Vec<Warning>,
 }
 
 impl<E: HardEngine> HardPacking<E> {
@@ -110,7 +110,10 @@ fn refused_step(stop: EventDrivenStop) -> Error {
     let remedy = "Does the base throw disks too fast? Check its amplitude and the inputs. Inelastic collapse? Raise \
                   collision.contact_time or lower contact.normal_damping, or use the engine molecular-dynamics, which \
                   knows lasting contacts.";
-    hard_disks::refused_step(NAME, stop, partner, remedy)
+    let crowded = "Disks that touch all the time collide again and again: where they fill the width of the box exactly, where \
+                   they lie still, or where light ones are between heavy ones. Change box.width or the radii a little, raise \
+                   collision.contact_time, or use the engine molecular-dynamics, which knows lasting contacts.";
+    hard_disks::refused_step(NAME, stop, partner, remedy, crowded)
 }
 
 impl<E: HardEngine> Model for HardPacking<E> {
@@ -123,7 +126,8 @@ impl<E: HardEngine> Model for HardPacking<E> {
             unnamed_drive: "input",
             engine: "event-driven",
             drive: E::Drive::NAME,
-            description: "Packing of hard frictional disks in a box on a vibrating bottom, event-driven",
+            description: "Packing of hard frictional disks on a vibrating bottom between side walls that stand still unless \
+                          wall.motion says otherwise, event-driven",
             equations: equations::HARD_HTML,
             disks: 1..=100_000,
             default_disks: 60,
@@ -165,6 +169,8 @@ impl<E: HardEngine> Model for HardPacking<E> {
     fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
         let disks = initial_packing::disks(info::disks(structure), values, settled::gap_of_hard_disks(values))?;
         let Settled { disks, warning } = settled::hard(disks, values)?;
+        let seed = initial_packing::warning(&disks, E::draws(values), values);
+        let warnings = warning.into_iter().chain(seed).collect();
         let masses = initial_packing::masses(&disks, values);
         let engine = E::from_values(&disks, &masses, start_time, values)?;
         let mut packing = Self {
@@ -173,10 +179,10 @@ impl<E: HardEngine> Model for HardPacking<E> {
             masses,
             radii: disks.iter().map(|disk| disk.radius).collect(),
             gravity: values.real("gravity"),
-            most_work: MOST_WORK_IN_A_CALL,
+            work_limit: WorkLimit::new(start_time, disks.len(), values),
+            warnings,
             report: StepReport::at_start(start_time),
             start_energy: 0.0,
-            warning,
         };
         packing.start_energy = packing.energies().total();
         Ok(packing)
@@ -188,7 +194,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
         self.engine.set_target(from, end_time - from, values);
         let outcome = self
             .engine
-            .advance_within(end_time, &mut WorkBudget::at_most(self.most_work));
+            .advance_within(end_time, &mut self.work_limit.budget(self.engine.work_done(), end_time));
         let outcome = outcome.map_err(refused_step).and_then(|()| self.check(NAME, end_time));
         if let Err(error) = outcome {
             self.engine.restore(&self.backup, from).map_err(refused_step)?;
@@ -204,11 +210,11 @@ impl<E: HardEngine> Model for HardPacking<E> {
 
     fn warnings(&self) -> Vec<Warning> {
         let inputs = self.engine.warning();
-        self.warning.iter().cloned().chain(inputs).collect()
+        self.warnings.iter().cloned().chain(inputs).collect()
     }
 
     fn limit_work(&mut self, most: u64) {
-        self.most_work = most;
+        self.work_limit.replace(most);
     }
 
     fn state(&self) -> Self::State {

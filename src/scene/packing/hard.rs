@@ -37,6 +37,12 @@ pub trait HardEngine: Engine<Stop = EventDrivenStop> {
     /// # Errors
     /// Parameters that no law is made of.
     fn from_values(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self>;
+    /// Whether the seed decides more than the start.
+    fn draws(_values: &Values) -> bool {
+        false
+    }
+    /// Work since the start, in units of [`WorkBudget`](crate::engine::WorkBudget).
+    fn work_done(&self) -> u64;
     /// Takes the inputs at `time` \[s\] for a step of `duration` \[s\].
     fn set_target(&mut self, time: f64, duration: f64, values: &Values);
     /// What is doubtful of the inputs so far.
@@ -130,6 +136,10 @@ impl<W: HardBase> HardEngine for HardDisks<W> {
 
     fn warning(&self) -> Option<Warning> {
         self.state().boundary.base.warning()
+    }
+
+    fn work_done(&self) -> u64 {
+        Self::work_done(self)
     }
 
     fn disk_at(&self, time: f64, disk: usize) -> DiskMotion {

@@ -1,7 +1,7 @@
 //! The impact law of hard disks that have the outcome of the soft contacts, from the same parameters.
 
 use crate::collision::{ContactTime, Dashpot, TabulatedDashpot, effective_mass};
-use crate::scene::{Error, Result, Values};
+use crate::scene::{Error, Result, Unit, Values};
 
 /// Law of the packing: stick and slip of the soft contact from a table, without loss in impacts that follow at once.
 pub type HardLaw = ContactTime<TabulatedDashpot>;
@@ -24,7 +24,7 @@ pub fn hard_law(masses: &[f64], values: &Values) -> Result<HardLaw> {
     if kappa > LARGEST_STIFFNESS_RATIO {
         return Err(Error::parameter(
             "contact.stiffness_ratio",
-            kappa,
+            Unit::ONE.format(kappa),
             format!(
                 "at most {LARGEST_STIFFNESS_RATIO:e} with the engine event-driven, which follows each of its oscillations"
             ),

@@ -7,15 +7,24 @@ use crate::scene::disks_on_base::{
     BaseRows, DisksOnBase, heights, horizontal_positions, mean_angular_velocity, mean_velocity, names, rotations,
 };
 use crate::scene::info::GRAVITY;
-use crate::scene::{Row, Unit};
+use crate::scene::{Row, Unit, work_limit};
 
 use super::settled::SETTLED;
 
 /// Names of the three radii that share the disks equally.
 pub const RADII: [&str; 3] = ["disk.radius_small", "disk.radius_medium", "disk.radius_large"];
 
+/// Name of the parameter that displaces the disks at the start.
+pub const PERTURBATION: &str = "initial.perturbation";
+
+/// Name of the parameter that says whether the side walls move.
+pub const WALL_MOTION: &str = "wall.motion";
+
+/// Its value for side walls that move with the floor.
+pub const WITH_BASE: i64 = 2;
+
 /// Radii in their order, and the box: the packing on a base at height zero.
-pub const PLACES: &[&str] = &["seed", "box.width", RADII[0], RADII[1], RADII[2]];
+pub const PLACES: &[&str] = &["seed", "box.width", PERTURBATION, RADII[0], RADII[1], RADII[2]];
 
 /// What decides where a settled packing rests besides: weight and contacts.
 pub const SETTLING: &[&str] = &[
@@ -74,7 +83,7 @@ impl AtStart {
 pub fn means_and_base<M: DisksOnBase>(at_start: &AtStart) -> Vec<Row<M>> {
     let base = BaseRows {
         force: 1.0,
-        bodies: "disks on the base",
+        bodies: "disks on the base, and on side walls that move with it",
         note: "",
         position_at_start: &at_start.base_position,
         velocity_at_start: &at_start.base_velocity,
@@ -100,6 +109,14 @@ pub fn each_disk<M: DisksOnBase>(disks: u32, at_start: &AtStart) -> Vec<Row<M>> 
         .collect()
 }
 
+const WALL_MOTIONS: &[(&str, &str)] = &[
+    ("fixed", "Side walls stand still while the floor moves"),
+    (
+        "with_base",
+        "Side walls move up and down with the floor and rub on the disks",
+    ),
+];
+
 /// Parameters that both kinds of packings have.
 pub fn parameters<M>() -> Vec<Row<M>> {
     let radius = |name: &str, start: f64, which: &str| {
@@ -108,13 +125,34 @@ pub fn parameters<M>() -> Vec<Row<M>> {
     };
     vec![
         Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 0.0..=1e4, 9.8, GRAVITY),
-        Row::long_parameter("seed", 0..=i64::MAX, 1, "Seed of the order of the radii in the packing"),
+        Row::long_parameter(
+            "seed",
+            0..=i64::MAX,
+            1,
+            "Seed of the order of the radii in the packing, and of initial.perturbation",
+        ),
+        Row::parameter(
+            PERTURBATION,
+            Unit::ONE,
+            0.0..=0.5,
+            0.0,
+            "Each disk starts displaced at random by up to this part of its radius, with as much room around it; without it \
+             equal radii give the same run for every seed",
+        )
+        .with_nominal(1e-3),
         Row::parameter(
             "box.width",
             Unit::METRE,
             1e-6..=1e6,
             0.40,
             "Inner width of the box; its middle is x = 0",
+        ),
+        Row::enumeration_parameter(
+            WALL_MOTION,
+            "wall_motion",
+            WALL_MOTIONS,
+            1,
+            "What the side walls do; those of a box on a shaker move with its floor",
         ),
         radius(RADII[0], 0.015, "first"),
         radius(RADII[1], 0.020, "second"),
@@ -154,6 +192,7 @@ pub fn parameters<M>() -> Vec<Row<M>> {
             0.1,
             "Friction coefficient mu of every contact",
         ),
+        work_limit::row(),
     ]
 }
 

@@ -33,8 +33,8 @@ pub trait SoftMethod: Stepper<Normal: SceneNormalForce> {
 impl<I: Integrator, N: SceneNormalForce> SoftMethod for PredictorCorrector<I, N> {
     const NAME: &'static str = N::ENGINE;
     const IDENTIFIER: &'static str = N::PACKING;
-    const DESCRIPTION: &'static str =
-        "Packing of frictional disks in a box on a vibrating bottom, by molecular dynamics";
+    const DESCRIPTION: &'static str = "Packing of frictional disks on a vibrating bottom between side walls that stand still unless wall.motion says otherwise, by \
+         molecular dynamics";
 
     fn parameters<M>() -> Vec<Row<M>> {
         vec![rows::time_step(
@@ -50,8 +50,8 @@ impl<I: Integrator, N: SceneNormalForce> SoftMethod for PredictorCorrector<I, N>
 impl SoftMethod for EventStepper {
     const NAME: &'static str = "molecular-dynamics-located";
     const IDENTIFIER: &'static str = "jostle_packing_located";
-    const DESCRIPTION: &'static str = "Packing of frictional disks in a box on a vibrating bottom, by molecular \
-        dynamics of fourth order with located contact events";
+    const DESCRIPTION: &'static str = "Packing of frictional disks on a vibrating bottom between side walls that \
+        stand still unless wall.motion says otherwise, by molecular dynamics of fourth order with located contact events";
 
     fn parameters<M>() -> Vec<Row<M>> {
         let tolerance = Row::parameter(

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use crate::drive::Motion;
 use crate::engine::dem::{FixedGrid, GridState, SoftDiskSetup, TimeStepLimits};
-use crate::engine::{DiskMotion, Engine, MOST_WORK_IN_A_CALL, WorkBudget};
+use crate::engine::{DiskMotion, Engine};
 use crate::error::are_sane;
 use crate::geometry::Disk;
 use crate::scene::base_drive::{BaseDrive, TERMINAL};
 use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, names, radii};
 use crate::scene::soft_disks::{SceneNormalForce, chosen_time_step, contact_laws, refused_step};
+use crate::scene::work_limit::WorkLimit;
 use crate::scene::{
     Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning, info,
 };
@@ -18,9 +19,6 @@ use super::initial_packing::{self, NAME};
 use super::rows::{self, AtStart};
 use super::settled::{self, Settled};
 use super::{PackingState, equations, soft::SoftMethod};
-
-/// Index of the vibrating floor among the walls.
-const FLOOR: usize = 0;
 
 /// What the largest time step depends on besides the radii and the drive.
 const STIFFEST: &[&str] = &[
@@ -36,13 +34,12 @@ const STIFFEST: &[&str] = &[
 pub struct SoftPacking<S: SoftMethod, D> {
     engine: FixedGrid<S, D>,
     limits: TimeStepLimits,
-    /// Work that one call may do.
-    most_work: u64,
+    work_limit: WorkLimit,
     report: StepReport,
     /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
     start_energy: f64,
     /// What is doubtful about the start.
-    warning: Option<Warning>,
+    warnings: Vec<Warning>,
 }
 
 impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
@@ -69,10 +66,10 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         let mut packing = Self {
             engine: FixedGrid::new(setup, &disks, drive),
             limits,
-            most_work: MOST_WORK_IN_A_CALL,
+            work_limit: WorkLimit::new(start_time, disks.len(), values),
+            warnings: initial_packing::warning(&disks, false, values).into_iter().collect(),
             report: StepReport::at_start(start_time),
             start_energy: 0.0,
-            warning: None,
         };
         packing.start_energy = packing.energy();
         Ok(packing)
@@ -88,6 +85,14 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         let velocity = self.engine.observables().base.velocity;
         self.engine.set_velocity([0.0, velocity]);
         self.start_energy = self.energy();
+    }
+
+    /// Vertical impulse \[N.s\] that the walls that move with the base have given to the disks since the start.
+    fn impulse_of_base(&self) -> f64 {
+        let walls = self.engine.setup().walls.iter().enumerate();
+        walls
+            .map(|(index, wall)| wall.follows_base * self.engine.impulse_of_wall(index)[1])
+            .sum()
     }
 
     /// Kinetic, potential and elastic energy \[J\] together.
@@ -212,7 +217,7 @@ impl<S: SoftMethod, D: BaseDrive> DisksOnBase for SoftPacking<S, D> {
     }
 
     fn base_impulse(&self) -> f64 {
-        -self.engine.impulse_of_wall(FLOOR)[1]
+        -self.impulse_of_base()
     }
 }
 
@@ -259,7 +264,7 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
         let disks = initial_packing::disks(info::disks(structure), values, 0.0)?;
         let Settled { disks, warning } = settled::soft(disks, S::Normal::from_values(values), values)?;
         let mut packing = Self::of_disks(&disks, start_time, values)?;
-        packing.warning = warning;
+        packing.warnings.extend(warning);
         if settled::is_wanted(values) {
             packing.move_with_base();
         }
@@ -269,30 +274,30 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
         let from = self.report.time;
         let duration = end_time - from;
-        let impulse = self.engine.impulse_of_wall(FLOOR)[1];
+        let impulse = self.impulse_of_base();
         let drive = self.engine.drive_mut().clone();
         self.engine.drive_mut().set_target(from, duration, values);
         if let Err(breakdown) = self
             .engine
-            .advance_within(end_time, &mut WorkBudget::at_most(self.most_work))
+            .advance_within(end_time, &mut self.work_limit.budget(0, end_time))
         {
             *self.engine.drive_mut() = drive;
             return Err(refused_step(NAME, breakdown));
         }
         self.report = StepReport {
             time: end_time,
-            reaction_force: (impulse - self.engine.impulse_of_wall(FLOOR)[1]) / duration,
+            reaction_force: (impulse - self.impulse_of_base()) / duration,
         };
         Ok(())
     }
 
     fn warnings(&self) -> Vec<Warning> {
         let inputs = self.engine.state().drive.warning();
-        self.warning.iter().cloned().chain(inputs).collect()
+        self.warnings.iter().cloned().chain(inputs).collect()
     }
 
     fn limit_work(&mut self, most: u64) {
-        self.most_work = most;
+        self.work_limit.replace(most);
     }
 
     fn state(&self) -> Self::State {

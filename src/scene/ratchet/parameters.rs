@@ -2,7 +2,7 @@
 
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::info::GRAVITY;
-use crate::scene::{Kind, Row, Unit};
+use crate::scene::{Kind, Row, Unit, work_limit};
 
 /// Value of `disk.mass_rule` for equal masses; the other is equal density.
 pub const EQUAL_MASS: i64 = 1;
@@ -78,6 +78,7 @@ fn general<M>() -> Vec<Row<M>> {
             5e-3,
             "No impact leaves slower than this along the normal: ends inelastic collapse",
         ),
+        work_limit::row(),
     ]
 }
 

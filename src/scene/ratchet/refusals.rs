@@ -1,8 +1,8 @@
 //! Why a step of the ratchet is refused: what stopped the engine or is wrong with the inputs, and what to do about it.
 
 use crate::engine::event_driven::{EventDrivenStop, Partner};
-use crate::scene::Error;
 use crate::scene::hard_disks::refused_step;
+use crate::scene::{Error, Unit};
 
 use super::NAME;
 
@@ -18,7 +18,9 @@ pub fn refusal(stop: EventDrivenStop) -> Error {
         _ => "nobody: it is too fast",
     };
     let remedy = "Inelastic collapse? Raise collision.minimum_normal_velocity or collision.restitution.";
-    refused_step(NAME, stop, partner, remedy)
+    let crowded = "Disks that touch all the time collide again and again: where they lie still, or where a thick layer is shaken \
+                   weakly. Shake more, take fewer disks or raise collision.minimum_normal_velocity.";
+    refused_step(NAME, stop, partner, remedy, crowded)
 }
 
 /// The inputs move the base so that disks cannot follow it.
@@ -32,7 +34,11 @@ pub fn impossible_motion(time: f64, acceleration: f64, farthest: f64, headroom: 
         )
     } else {
         (
-            format!("the inputs move the base up by {farthest} m, and {headroom} m are left below the ceiling"),
+            format!(
+                "the inputs move the base up by {}, and {} are left below the ceiling",
+                Unit::METRE.format(farthest),
+                Unit::METRE.format(headroom)
+            ),
             "Keep base.displacement smaller or raise cell.height.",
         )
     };

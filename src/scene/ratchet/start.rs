@@ -7,7 +7,7 @@ use crate::engine::event_driven::{PeriodicAcross, Region};
 use crate::error::{Error, Result};
 use crate::geometry::{Disk, SawtoothProfile, Vector2};
 use crate::packing::RadiusDistribution;
-use crate::scene::Values;
+use crate::scene::{Unit, Values};
 
 use super::parameters::EQUAL_MASS;
 
@@ -70,10 +70,10 @@ pub fn headroom(values: &Values, top: f64, farthest: f64) -> Result<f64> {
     if farthest >= headroom {
         return Err(Error::parameter(
             "cell.height",
-            format!("{ceiling} m"),
+            Unit::METRE.format(ceiling),
             format!(
-                "more than {} m, above the base at its highest and a disk",
-                ceiling - headroom + farthest
+                "more than {}, above the base at its highest and a disk",
+                Unit::METRE.format(ceiling - headroom + farthest)
             ),
             "Raise the ceiling or move the base less.",
         ));
@@ -103,8 +103,8 @@ pub fn disks(count: usize, values: &Values, top: f64) -> Result<Vec<Disk>> {
     if min > max {
         return Err(Error::parameter(
             "disk.radius_min",
-            format!("{min} m"),
-            format!("at most disk.radius_max = {max} m"),
+            Unit::METRE.format(min),
+            format!("at most disk.radius_max = {}", Unit::METRE.format(max)),
             "Swap the two or raise disk.radius_max.",
         ));
     }
@@ -112,10 +112,10 @@ pub fn disks(count: usize, values: &Values, top: f64) -> Result<Vec<Disk>> {
     if 2.0 * max > MOST_TEETH_UNDER_A_DISK * tooth {
         return Err(Error::parameter(
             "tooth.width",
-            format!("{tooth} m"),
+            Unit::METRE.format(tooth),
             format!(
-                "at least {} m: a disk of disk.radius_max covers {MOST_TEETH_UNDER_A_DISK} teeth at most",
-                2.0 * max / MOST_TEETH_UNDER_A_DISK
+                "at least {}: a disk of disk.radius_max covers {MOST_TEETH_UNDER_A_DISK} teeth at most",
+                Unit::METRE.format(2.0 * max / MOST_TEETH_UNDER_A_DISK)
             ),
             "Take wider teeth or smaller disks.",
         ));
@@ -126,7 +126,7 @@ pub fn disks(count: usize, values: &Values, top: f64) -> Result<Vec<Disk>> {
             "tooth.count",
             values.integer("tooth.count"),
             format!("at least {}: the cell is {NARROWEST} radii wide or more", {
-                (NARROWEST * max / values.real("tooth.width")).ceil()
+                Unit::ONE.format((NARROWEST * max / values.real("tooth.width")).ceil())
             }),
             "Add teeth or take smaller disks.",
         ));
@@ -140,8 +140,8 @@ pub fn disks(count: usize, values: &Values, top: f64) -> Result<Vec<Disk>> {
     if highest > ceiling {
         return Err(Error::parameter(
             "cell.height",
-            format!("{ceiling} m"),
-            format!("at least {highest} m for the rows at the start"),
+            Unit::METRE.format(ceiling),
+            format!("at least {} for the rows at the start", Unit::METRE.format(highest)),
             "Raise the ceiling, add teeth or take fewer disks.",
         ));
     }

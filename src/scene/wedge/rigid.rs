@@ -11,7 +11,7 @@ use crate::drive::{AtRandomPhase, FirstHit, Motion, RandomPhase, Sine};
 use crate::engine::DiskMotion;
 use crate::engine::wedge::{DiskInWedge, NO_PROGRESS, Side, Start, Stuck, WedgeSetup, WedgeStop};
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::{Error, Kind, Result, Row, Unit, Values, Warning};
+use crate::scene::{Error, Kind, Result, Row, Unit, Values, Warning, work_limit};
 
 use super::engine::{AtStart, SpecificEnergies, WedgeEngine};
 use super::rows::{self, NAME};
@@ -74,7 +74,8 @@ fn refused_step(stop: WedgeStop, remedy: &str) -> Error {
     } = match stop {
         WedgeStop::Stuck(stuck) => stuck,
         WedgeStop::TooManyImpacts { time, most } => {
-            return Error::too_much_work(NAME, time, format!("more than {most} collisions"));
+            let reason = "A disk that hardly leaves its wall collides again and again.";
+            return work_limit::refusal(NAME, time, &format!("more than {most} collisions"), reason);
         }
     };
     let wall = match side {
@@ -147,6 +148,7 @@ impl WedgeEngine for Map {
     fn drive_rows<M>() -> Vec<Row<M>> {
         let mut rows = <Sine as BaseDrive>::rows();
         rows.retain(|Row { variable, .. }| variable.name != "drive.phase");
+        rows::exclude_rest(&mut rows);
         for Row { variable, .. } in &mut rows {
             if let ("drive.amplitude", Kind::Real(quantity)) = (variable.name.as_str(), &mut variable.kind) {
                 quantity.max = 1e4;

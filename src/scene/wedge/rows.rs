@@ -7,11 +7,14 @@ use rand::Rng;
 use crate::engine::wedge::WedgeFrame;
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::info::GRAVITY;
-use crate::scene::{Error, Result, Row, Unit, Values};
+use crate::scene::{Error, Kind, Result, Row, Unit, Values, work_limit};
 
 /// Largest aperture \[rad\]: a little more than 179.9 degrees. Not a rounded pi.
 #[allow(clippy::approx_constant)]
 const WIDEST: f64 = 3.14;
+
+/// Smallest amplitude \[m\] and frequency \[Hz\] of a base.
+const SMALLEST: f64 = 1e-12;
 
 /// Name of the scene.
 pub const NAME: &str = "wedge";
@@ -21,6 +24,7 @@ const BASE_SPEED: &str = "measure.base_velocity";
 /// Rows of a drive. Where inputs move the base, its largest velocity is a parameter.
 pub fn drive<M, D: BaseDrive>() -> Vec<Row<M>> {
     let mut rows = D::rows();
+    exclude_rest(&mut rows);
     if D::STEERED {
         rows.push(Row::parameter(
             BASE_SPEED,
@@ -31,6 +35,17 @@ pub fn drive<M, D: BaseDrive>() -> Vec<Row<M>> {
         ));
     }
     rows
+}
+
+/// Leaves the base at rest out of the range of a sine: nothing moves then, and scaled_angular_velocity divides by its velocity.
+pub fn exclude_rest<M>(rows: &mut [Row<M>]) {
+    for Row { variable, .. } in rows {
+        if let ("drive.amplitude" | "drive.frequency", Kind::Real(quantity)) =
+            (variable.name.as_str(), &mut variable.kind)
+        {
+            quantity.min = SMALLEST;
+        }
+    }
 }
 
 /// Wedge, disk and measurement.
@@ -73,6 +88,7 @@ pub fn geometry<M>() -> Vec<Row<M>> {
             0.0,
             "Time from which on scaled_angular_velocity is averaged: leaves out how the disk started",
         ),
+        work_limit::row(),
     ]
 }
 
@@ -90,27 +106,20 @@ pub fn friction<M>() -> Vec<Row<M>> {
     ]
 }
 
-/// Refuses what confines no disk and what no angular velocity can be scaled by.
+/// Refuses what confines no disk.
 pub fn check(values: &Values) -> Result<()> {
     let (aperture, tilt) = (values.real("wedge.aperture"), values.real("wedge.tilt"));
     let critical = WedgeFrame::critical_tilt(aperture);
     if tilt.abs() >= critical {
         return Err(Error::parameter(
             "wedge.tilt",
-            format!("{tilt} rad"),
-            format!("between -{critical} and {critical} rad, which is (pi - wedge.aperture)/2 and excluded"),
+            Unit::RADIAN.format(tilt),
+            format!(
+                "between -{0} and {0}, which is (pi - wedge.aperture)/2 and excluded",
+                Unit::RADIAN.format(critical)
+            ),
             "At this tilt a wall is horizontal and the disk runs away: tilt less or take a smaller wedge.aperture.",
         ));
-    }
-    for name in ["drive.amplitude", "drive.frequency"] {
-        if values.table().position(name).is_some() && values.real(name) == 0.0 {
-            return Err(Error::parameter(
-                name,
-                0,
-                "above 0 in a wedge",
-                "Without it nothing moves, and scaled_angular_velocity divides by it.",
-            ));
-        }
     }
     Ok(())
 }

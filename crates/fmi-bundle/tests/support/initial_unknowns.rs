@@ -205,7 +205,7 @@ fn observed(component: &Component, trials: &Trials) -> Lists {
             continue;
         };
         accepted += 1;
-        for other in [0.0123, 1.7] {
+        for other in [0.0123, 1.7, -0.9] {
             note(&before, run(other, &values), TIME);
         }
         for (position, variable) in table.settable().iter().enumerate() {

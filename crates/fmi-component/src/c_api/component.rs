@@ -8,9 +8,11 @@ use super::logger::{Category, Logger};
 use super::saved_states::SavedStates;
 use super::types::{Opaque, Status};
 use crate::error::{Error, Result};
-use crate::handle::{self, describe};
+use crate::handle::{self, Barred, describe};
 use crate::instance::Instance;
 use crate::life_cycle::Version;
+use crate::unit::Unit;
+use crate::value::Value;
 
 /// What an instance pointer points to.
 type Handle = handle::Handle<Component, 0x464d_4943_4f4d_5054>;
@@ -23,8 +25,8 @@ pub struct Component {
     pub logger: Logger,
     /// How the last step ended, for `fmi2GetStatus`.
     pub last_step: Status,
-    /// Communication point and step size that were refused last.
-    refused: Option<(f64, f64)>,
+    /// The step that was refused last.
+    refused: Option<RefusedStep>,
     version: Version,
     /// To whom events inside of a step are reported.
     pub listener: Option<Listener>,
@@ -34,6 +36,15 @@ pub struct Component {
     warned: Vec<&'static str>,
     /// Values on their way to the importer, with room for all of them.
     pub reals: Vec<f64>,
+}
+
+/// A step that the model could not do: asked for again, it is refused again.
+#[derive(PartialEq)]
+struct RefusedStep {
+    /// Communication point and step size.
+    asked: (f64, f64),
+    /// Inputs and parameters. With others it is another step.
+    values: Vec<Value>,
 }
 
 /// A call of an importer.
@@ -104,12 +115,7 @@ impl Entry {
             work(component)
         };
         // SAFETY: by the caller's promise.
-        unsafe {
-            Handle::enter(self.pointer.cast_const().cast(), |component| {
-                component.answer(self, checked)
-            })
-        }
-        .unwrap_or(Status::Error)
+        unsafe { self.enter(checked) }
     }
 
     /// Enters for calls that only read values, which are allowed inside of an intermediate update.
@@ -118,12 +124,30 @@ impl Entry {
     /// As for [`Entry::change`].
     pub unsafe fn read(self, work: impl FnOnce(&mut Component) -> Result<()>) -> Status {
         // SAFETY: by the caller's promise.
-        unsafe {
-            Handle::enter(self.pointer.cast_const().cast(), |component| {
-                component.answer(self, work)
+        unsafe { self.enter(work) }
+    }
+
+    /// A call that comes while another is under way cannot log: what it needs is lent to that one, which tells of it at its end.
+    ///
+    /// # Safety
+    /// As for [`Entry::change`].
+    unsafe fn enter(self, work: impl FnOnce(&mut Component) -> Result<()>) -> Status {
+        let pointer: *const Handle = self.pointer.cast_const().cast();
+        // SAFETY: by the caller's promise.
+        let entered = unsafe {
+            Handle::enter(pointer, |component| {
+                let status = component.answer(self, work);
+                component.tell_barred(&Handle::take_barred(pointer));
+                status
             })
-        }
-        .unwrap_or(Status::Error)
+        };
+        entered.unwrap_or_else(|barred| {
+            if barred == Barred::Busy {
+                // SAFETY: by the caller's promise.
+                unsafe { Handle::note_barred(pointer, self.function) };
+            }
+            Status::Error
+        })
     }
 
     /// Enters again for a step that was left for an intermediate update.
@@ -144,6 +168,11 @@ impl Entry {
 impl Component {
     fn answer(&mut self, entry: Entry, work: impl FnOnce(&mut Self) -> Result<()>) -> Status {
         if self.version != entry.version {
+            let message = format!(
+                "{}: this instance was made by the functions of the other version of FMI. Call those.",
+                entry.function
+            );
+            self.logger.log(Status::Error, Category::Error, &message);
             return Status::Error;
         }
         let (status, category, message) = match catch_unwind(AssertUnwindSafe(|| work(self))) {
@@ -161,10 +190,21 @@ impl Component {
         status
     }
 
+    #[inline]
+    fn tell_barred(&self, calls: &[&str]) {
+        for call in calls {
+            let message = format!(
+                "{call}: refused, since another call of this instance was under way. Call an instance from one thread at a time, \
+                 and not from the function that it logs by."
+            );
+            self.logger.log(Status::Error, Category::Error, &message);
+        }
+    }
+
     /// Notes how the step from `asked.0` by `asked.1` ended.
     ///
-    /// A step that the model cannot do is discarded, so that the importer may try a shorter one. Asked for the very same
-    /// step again, the answer is an error: there are importers that otherwise repeat a discarded step without end.
+    /// A step that the model cannot do is discarded, so that the importer may try a shorter one, or the same with other
+    /// inputs or from another state. Asked for the very same step again, the answer is an error: there are importers that otherwise repeat a discarded step without end.
     ///
     /// # Errors
     /// That of `done`, with [`Error::Call`] in the place of a repeated [`Error::Step`].
@@ -178,7 +218,9 @@ impl Component {
 
     #[cold]
     fn note_refusal(&mut self, asked: (f64, f64), error: Error) -> Error {
-        let repeated = self.refused == Some(asked);
+        let values = self.instance.values().to_vec();
+        let step = RefusedStep { asked, values };
+        let repeated = self.refused.as_ref() == Some(&step);
         match error {
             Error::Step {
                 model,
@@ -187,12 +229,13 @@ impl Component {
                 remedy,
             } if repeated => {
                 self.last_step = Status::Error;
-                let what = format!("{model}: the same step refused again at t = {time} s: {what}");
+                let time = Unit::SECOND.format(time);
+                let what = format!("{model}: the same step refused again at t = {time}: {what}");
                 Error::call(what, remedy)
             }
             Error::Step { .. } => {
                 self.last_step = Status::Discard;
-                self.refused = Some(asked);
+                self.refused = Some(step);
                 error
             }
             _ => {
@@ -213,6 +256,16 @@ impl Component {
         }
     }
 
+    /// Goes to a saved state, from which a step that was refused may be possible.
+    ///
+    /// # Errors
+    /// Those of [`Instance::restore`]; no such state.
+    pub fn restore(&mut self, state: Opaque) -> Result<()> {
+        self.instance.restore(self.states.get(state)?)?;
+        self.refused = None;
+        Ok(())
+    }
+
     /// Becomes as a new instance. Saved states stay: the importer frees them.
     pub fn reset(&mut self) {
         self.instance.reset();
@@ -226,8 +279,8 @@ impl Component {
         if !self.logger.is_on(Category::Events) {
             return; // without the memory of a message: event mode begins and ends within steps of the importer
         }
-        let (phase, time) = (self.instance.phase().name(), self.instance.time());
-        let message = format!("{function}: {phase} at t = {time} s");
+        let (phase, time) = (self.instance.phase().name(), Unit::SECOND.format(self.instance.time()));
+        let message = format!("{function}: {phase} at t = {time}");
         self.logger.log(Status::Ok, Category::Events, &message);
     }
 }

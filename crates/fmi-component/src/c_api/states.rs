@@ -28,7 +28,7 @@ pub unsafe fn get(entry: Entry, state: *mut Opaque) -> Status {
 /// As for [`Entry::change`].
 pub unsafe fn set(entry: Entry, state: Opaque) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.change(|component| component.instance.restore(component.states.get(state)?)) }
+    unsafe { entry.change(|component| component.restore(state)) }
 }
 
 /// `fmi2FreeFMUstate`, `fmi3FreeFMUState`.

@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::life_cycle::{Call, Phase};
 use crate::model::Reached;
 use crate::times::check_time;
+use crate::unit::Unit;
 
 /// Importers add up communication points in their own way; as much of a step may differ from ours.
 const POINT_TOLERANCE_OF_STEP: f64 = 1e-6;
@@ -130,7 +131,7 @@ impl Instance {
         if !(step.is_finite() && step > 0.0) {
             return Err(Error::parameter(
                 "communication step size",
-                format!("{step} s"),
+                Unit::SECOND.format(step),
                 "finite and greater than 0",
                 "Both standards ask for steps forward in time; read outputs without a step.",
             ));
@@ -140,8 +141,11 @@ impl Instance {
         if !fits {
             return Err(Error::parameter(
                 "current communication point",
-                format!("{current} s"),
-                format!("{now} s within {tolerance:e} s, where the last step ended"),
+                Unit::SECOND.format(current),
+                format!(
+                    "{} within {tolerance:e} s, where the last step ended",
+                    Unit::SECOND.format(now)
+                ),
                 "Steps join without gaps; restore a saved state to go back.",
             ));
         }
@@ -150,16 +154,19 @@ impl Instance {
         if end <= now {
             return Err(Error::parameter(
                 "communication step size",
-                format!("{step} s"),
-                format!("large enough to move the time {now} s in double precision"),
+                Unit::SECOND.format(step),
+                format!(
+                    "large enough to move the time {} in double precision",
+                    Unit::SECOND.format(now)
+                ),
                 "Take larger steps or start nearer to time zero.",
             ));
         }
         match self.stop {
             Some(stop) if end > stop + tolerance + POINT_TOLERANCE_OF_TIME * stop.abs() => Err(Error::parameter(
                 "end of the step",
-                format!("{end} s"),
-                format!("not after the stop time {stop} s given at set-up"),
+                Unit::SECOND.format(end),
+                format!("not after the stop time {} given at set-up", Unit::SECOND.format(stop)),
                 "Shorten the step or leave the stop time undefined.",
             )),
             _ => Ok(end),

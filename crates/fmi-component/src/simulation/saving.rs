@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::saved_bytes;
 use crate::times::is_simulated;
+use crate::unit::Unit;
 use crate::value::Value;
 use crate::variable::fingerprint;
 
@@ -78,14 +79,22 @@ impl<M: Model> Simulation<M> {
         let Saved { start, time, state, .. } = saved;
         if !(is_simulated(*start) && is_simulated(*time) && time >= start) {
             return Err(Error::state(
-                format!("it is at {time} s and started at {start} s"),
+                format!(
+                    "it is at {} and started at {}",
+                    Unit::SECOND.format(*time),
+                    Unit::SECOND.format(*start)
+                ),
                 "Pass a state that saving gave.",
             ));
         }
         match state.as_ref().map(M::time_of).filter(|reached| reached != time) {
             None => Ok(()),
             Some(reached) => Err(Error::state(
-                format!("its time is {time} s and its model's {reached} s"),
+                format!(
+                    "its time is {} and its model's {}",
+                    Unit::SECOND.format(*time),
+                    Unit::SECOND.format(reached)
+                ),
                 "Pass a state that saving gave.",
             )),
         }

@@ -1,12 +1,14 @@
 //! Nulls, wrong lengths, wrong references, wrong types, unsupported functions, panics.
 
+use std::ffi::{c_char, c_int, c_void};
 use std::ptr::{null, null_mut};
 
+use fmi_component::c_api::Opaque;
 use fmi_component::c_api::Status::{Error, Ok};
 use oscillators::fmi2::*;
 use oscillators::fmi3::*;
 
-use crate::client::{Client, Log, callbacks2, reference, token};
+use crate::client::{Client, Log, callbacks2, log3, reference, token};
 
 #[test]
 fn null_instances_are_refused() {
@@ -84,6 +86,89 @@ fn wrong_pointers_lengths_references_and_types_are_refused() {
 }
 
 #[test]
+fn the_remedy_of_a_null_pointer_says_what_to_pass() {
+    let client = Client::three().ready(&[]);
+    let remedy = |status, words: &str| {
+        assert_eq!(status, Error);
+        assert!(client.last_message().contains(words), "{}", client.last_message());
+    };
+    unsafe {
+        remedy(fmi3GetFMUState(client.pointer, null_mut()), "the address of one value");
+        remedy(
+            fmi3GetFloat64(client.pointer, null(), 1, null_mut(), 1),
+            "an array of the length",
+        );
+        remedy(
+            fmi3SetDebugLogging(client.pointer, 1, 1, [null()].as_ptr()),
+            "ends with a zero byte",
+        );
+    }
+}
+
+/// An importer whose log calls the instance that it hears of, as none should.
+#[test]
+fn a_call_while_another_is_under_way_is_told_of_at_the_end_of_that_one() {
+    struct Environment {
+        instance: Opaque,
+        log: Log,
+    }
+    unsafe extern "C" fn calls_back(
+        environment: *mut c_void,
+        status: c_int,
+        category: *const c_char,
+        message: *const c_char,
+    ) {
+        let environment = unsafe { &*environment.cast::<Environment>() };
+        unsafe {
+            log3(
+                (&raw const environment.log).cast_mut().cast(),
+                status,
+                category,
+                message,
+            )
+        };
+        if environment.log.borrow().len() == 1 {
+            let mut value = 0.0;
+            let status = unsafe { fmi3GetFloat64(environment.instance, &0, 1, &mut value, 1) };
+            assert_eq!(status, Error);
+        }
+    }
+    let mut environment = Box::new(Environment {
+        instance: null_mut(),
+        log: Log::default(),
+    });
+    let hears = std::ptr::from_mut(&mut *environment).cast();
+    environment.instance = unsafe {
+        fmi3InstantiateCoSimulation(
+            c"oscillators".as_ptr(),
+            token().as_ptr(),
+            null(),
+            0,
+            0,
+            0,
+            0,
+            null(),
+            0,
+            hears,
+            Some(calls_back),
+            None,
+        )
+    };
+    let errors = [c"logStatusError".as_ptr()];
+    unsafe {
+        assert_eq!(fmi3SetDebugLogging(environment.instance, 1, 1, errors.as_ptr()), Ok);
+        assert_eq!(fmi3GetFMUState(environment.instance, null_mut()), Error);
+    }
+    let messages: Vec<String> = environment.log.borrow().iter().map(|line| line.2.clone()).collect();
+    assert_eq!(messages.len(), 2, "{messages:?}");
+    assert!(
+        messages[1].starts_with("fmi3GetFloat64: refused, since another call"),
+        "{messages:?}"
+    );
+    unsafe { fmi3FreeInstance(environment.instance) };
+}
+
+#[test]
 fn sets_are_all_or_nothing() {
     let client = Client::three().ready(&[]);
     let references = [reference("frame.position"), reference("frame.velocity")];
@@ -106,6 +191,13 @@ fn instances_of_one_version_are_not_of_the_other() {
     unsafe {
         assert_eq!(fmi2Reset(three.pointer), Error);
         assert_eq!(fmi3Reset(two.pointer), Error);
+        for client in [&two, &three] {
+            assert!(
+                client.last_message().contains("other version"),
+                "{}",
+                client.last_message()
+            );
+        }
         fmi3FreeInstance(two.pointer);
         fmi2FreeInstance(three.pointer);
     }

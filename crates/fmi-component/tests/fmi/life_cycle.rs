@@ -133,6 +133,92 @@ fn a_discarded_step_keeps_the_state_and_may_be_tried_shorter() {
     }
 }
 
+/// A doubtful parameter is told of once, when it is frozen, and is no failure; FMI 3.0 logs what is switched on.
+#[test]
+fn what_is_doubtful_is_logged_when_initialisation_ends() {
+    for client in [Client::two(), Client::three()] {
+        if client.three {
+            let categories = [c"logStatusWarning".as_ptr()];
+            assert_eq!(
+                unsafe { fmi3SetDebugLogging(client.pointer, 1, 1, categories.as_ptr()) },
+                Ok
+            );
+        }
+        let client = client.ready(&[("damper.damping", 0.0)]);
+        client.run((0, 2), 0.01);
+        let lines = client.log.borrow();
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert_eq!((lines[0].0, lines[0].1.as_str()), (1, "logStatusWarning"));
+        assert!(
+            lines[0]
+                .2
+                .contains("ExitInitializationMode: damper.damping = 0: the bodies never"),
+            "{lines:?}"
+        );
+    }
+    assert_eq!(Client::two().ready(&[]).last_message(), "");
+}
+
+/// Only the very same step is answered by an error: with other inputs or from another state it may be possible.
+#[test]
+fn a_discarded_step_with_other_inputs_or_from_another_state_is_another_step() {
+    for client in both() {
+        let client = client.ready(&[("fault.refuse_time", 0.055)]);
+        client.run((0, 5), 0.01);
+        let state = client.save();
+        assert_eq!(client.step(0.05, 0.01), Discard);
+        assert_eq!(client.set("frame.position", 0.25), Ok);
+        assert_eq!(client.step(0.05, 0.01), Discard, "{}", client.last_message());
+        assert_eq!(client.set("frame.position", 0.25), Ok);
+        assert_eq!(client.step(0.05, 0.01), Error, "the same inputs set again");
+        assert_eq!(client.restore(state), Ok);
+        assert_eq!(client.step(0.05, 0.01), Discard, "{}", client.last_message());
+        assert_eq!(client.step(0.05, 0.01), Error);
+    }
+}
+
+/// Numbers in messages are as short as they can be: 1e-300 is not three hundred zeros.
+#[test]
+fn numbers_in_messages_are_short() {
+    let client = Client::three().ready(&[("fault.refuse_time", 1e-300)]);
+    let longest = |message: String| message.split(' ').map(str::len).max();
+    for (point, step) in [
+        (0.0, -1e-300),
+        (0.0, f64::MAX),
+        (1e300, 0.1),
+        (1e-300, f64::MIN_POSITIVE),
+        (0.0, 1.0),
+    ] {
+        assert_ne!(client.step(point, step), Ok);
+        assert!(longest(client.last_message()) < Some(30), "{}", client.last_message());
+    }
+    for value in [f64::MAX, -1e-300] {
+        assert_eq!(Client::three().set("damper.damping", value), Error);
+        let other = Client::three();
+        assert_eq!(other.set("damper.damping", value), Error);
+        assert!(longest(other.last_message()) < Some(30), "{}", other.last_message());
+    }
+}
+
+#[test]
+fn no_simulation_starts_where_no_step_leads_on() {
+    for start in [1e10, f64::INFINITY] {
+        let client = Client::three();
+        let status = unsafe { fmi3EnterInitializationMode(client.pointer, 0, 0.0, start, 0, 0.0) };
+        assert_eq!(status, Error, "{start}");
+        assert!(
+            client.last_message().contains("start time = "),
+            "{}",
+            client.last_message()
+        );
+    }
+    let client = Client::three();
+    let start = -1e10;
+    let status = unsafe { fmi3EnterInitializationMode(client.pointer, 0, 0.0, start, 0, 0.0) };
+    assert_eq!((status, client.exit()), (Ok, Ok));
+    assert_eq!(client.step(start, 0.5), Ok, "{}", client.last_message());
+}
+
 #[test]
 fn reset_equals_a_new_instance() {
     for client in both() {

@@ -55,12 +55,19 @@ impl Laws {
 
     /// Stretch \[m\] of the tangential spring of a closed contact with this overlap \[m\].
     fn stretch(&self, contact: &Contact, overlap: f64) -> f64 {
-        match contact.phase {
+        let stretch = contact.kinematics.tangential_displacement - contact.reference;
+        let normal_force = self.normal_force(overlap, contact.kinematics.closing);
+        self.stretch_in(contact.phase, stretch, normal_force)
+    }
+
+    /// Of the `stretch` \[m\] of a spring what is left in this phase under a normal force \[N\]. The one that slips keeps its sign
+    /// with the phase.
+    fn stretch_in(&self, phase: LocatedPhase, stretch: f64, normal_force: f64) -> f64 {
+        match phase {
             LocatedPhase::Open | LocatedPhase::Unpressed => 0.0,
-            LocatedPhase::Stick => contact.kinematics.tangential_displacement - contact.reference,
-            LocatedPhase::SlipForward | LocatedPhase::SlipBackward => {
-                self.slip_compliance * self.normal_force(overlap, contact.kinematics.closing)
-            }
+            LocatedPhase::Stick => stretch,
+            LocatedPhase::SlipForward => self.slip_compliance * normal_force,
+            LocatedPhase::SlipBackward => -self.slip_compliance * normal_force,
         }
     }
 
@@ -70,6 +77,12 @@ impl Laws {
             return 0.0;
         }
         self.normal.energy(overlap) + self.tangential.energy(self.stretch(contact, overlap))
+    }
+
+    /// Energy \[J\] in the tangential spring of a contact in this phase: of its stretch \[m\] while it sticks, of the one that
+    /// the normal force \[N\] leaves while it slips.
+    pub fn spring_energy(&self, phase: LocatedPhase, stretch: f64, normal_force: f64) -> f64 {
+        self.tangential.energy(self.stretch_in(phase, stretch, normal_force))
     }
 
     /// Normal and tangential force \[N\] of a contact with this overlap \[m\] and closing velocity \[m/s\].

@@ -5,7 +5,7 @@
 #![allow(unsafe_code)] // the exported C functions; each is checked in `fmi_component::c_api`
 
 use fmi_component::{
-    Error, Model, ModelInfo, Reached, Result, Row, StructuralParameter, StructuralParameters, Unit, Values,
+    Error, Model, ModelInfo, Reached, Result, Row, StructuralParameter, StructuralParameters, Unit, Values, Warning,
 };
 use serde::{Deserialize, Serialize};
 
@@ -43,6 +43,7 @@ pub struct Oscillators {
     panic_time: f64,
     refuse_time: f64,
     most_steps: u64,
+    warnings: Vec<Warning>,
     state: State,
 }
 
@@ -132,7 +133,15 @@ impl Model for Oscillators {
                 *velocity = draw(&mut state.random);
             }
         }
+        let undamped = "damper.damping = 0: the bodies never come to rest. Set it above 0 if they should.";
         Ok(Self {
+            warnings: (damping == 0.0)
+                .then(|| Warning {
+                    topic: "damper.damping",
+                    text: undamped.into(),
+                })
+                .into_iter()
+                .collect(),
             start: start_time,
             stiffness,
             mass,
@@ -174,6 +183,10 @@ impl Model for Oscillators {
 
     fn limit_work(&mut self, most: u64) {
         self.most_steps = most;
+    }
+
+    fn warnings(&self) -> Vec<Warning> {
+        self.warnings.clone()
     }
 
     fn state(&self) -> State {

@@ -123,6 +123,7 @@ fn run(options: &Run, selected: &Selected) -> Result<u64, Failure> {
         let advanced = simulation.advance_to(time).map_err(Failure::from);
         if let Err(failure) = advanced.and_then(|()| samples.write(time, &*simulation)) {
             bar.abandon();
+            warn(&*simulation);
             let until = text::number(options.time(row - 1));
             let kept = format!(
                 "{row} whole rows up to t = {until} s are in {}.",
@@ -133,7 +134,15 @@ fn run(options: &Run, selected: &Selected) -> Result<u64, Failure> {
         bar.inc(1);
     }
     bar.finish_and_clear();
+    warn(&*simulation);
     Ok(last + 1)
+}
+
+/// Says on standard error what is doubtful about the run.
+fn warn(simulation: &dyn DynSimulation) {
+    for warning in simulation.warnings() {
+        eprintln!("jostle: warning: {}", warning.text);
+    }
 }
 
 /// The CSV file of samples.

@@ -192,6 +192,24 @@ fn short_run(output: &std::path::Path, friction: &str) -> Output {
 }
 
 #[test]
+fn what_is_doubtful_is_said_and_is_no_failure() {
+    let path = folder("doubtful").join("run.csv");
+    let equal = ["small", "large"].map(|which| format!("disk.radius_{which}=0.02"));
+    let own = [
+        "--output",
+        path.to_str().unwrap(),
+        "--set",
+        &equal[0],
+        "--set",
+        &equal[1],
+    ];
+    let output = jostle(&[&SHORT[..], &own].concat());
+    assert_eq!(output.status.code(), Some(0));
+    let said = text(&output.stderr);
+    assert!(said.contains("jostle: warning: the seed decides nothing"), "{said}");
+}
+
+#[test]
 fn outputs_whose_names_differ_after_a_dot_have_parameters_of_their_own() {
     let folder = folder("dots");
     for friction in ["0.1", "0.2"] {

@@ -324,3 +324,63 @@ fn split_steps_agree_to_the_error_of_the_extrapolation() {
         );
     }
 }
+
+/// An importer that offers inputs inside of a step is asked for them at three places; the base then follows as in steps of a quarter,
+/// and the force is the mean over the whole step.
+#[test]
+fn inputs_inside_of_a_step_are_taken() {
+    use fmi_component::instance::{Access, Part};
+    use fmi_component::{Importer, Instance, ModelType, Value, value_reference};
+
+    let model = ModelType::of::<PackingOnInput>();
+    let component = fmi_bundle::Component::new(&model, &[("disks", 3)]).unwrap();
+    let table = component.table().clone();
+    let reference = |name: &str| value_reference(table.position(name).unwrap());
+    let names = ["base.displacement", "base.velocity"].map(reference);
+    let token = component.token();
+    let mut inside = Instance::new(&model, &token, Importer::default()).unwrap();
+    let mut quarters = Instance::new(&model, &token, Importer::default()).unwrap();
+    for instance in [&mut inside, &mut quarters] {
+        instance.set_up(0.0, None).unwrap();
+        instance.enter_initialization().unwrap();
+        instance.exit_initialization().unwrap();
+    }
+    inside.offer_inputs(model.input_parts);
+    let give = |instance: &mut Instance, time: f64| {
+        let motion = sine(time);
+        instance
+            .set(&names, Access::Real, |index| Value::Real(motion[index]))
+            .unwrap();
+    };
+    let step = 1.0 / 512.0;
+    for number in 0..40 {
+        let start = f64::from(number) * step;
+        let mut mean = 0.0;
+        for part in 0..4 {
+            let time = start + 0.25 * f64::from(part) * step;
+            give(&mut quarters, time);
+            quarters.do_step(time, 0.25 * step).unwrap();
+            let Value::Real(force) = quarters.get(reference("base.reaction_force"), Access::Real).unwrap() else {
+                panic!("a real");
+            };
+            mean += 0.25 * force;
+        }
+        give(&mut inside, start);
+        let mut part = inside.begin_step(start, step).unwrap();
+        while let Part::Event(time) = part {
+            give(&mut inside, time);
+            part = inside.resume_step(None).unwrap();
+        }
+        for name in ["base.position", "base.acceleration", "disk.y[1]", "energy.input"] {
+            let [one, other] = [&mut inside, &mut quarters].map(|of| of.get(reference(name), Access::Real).unwrap());
+            assert!(one == other, "{name} after step {number}: {one:?} {other:?}");
+        }
+        let Value::Real(force) = inside.get(reference("base.reaction_force"), Access::Real).unwrap() else {
+            panic!("a real");
+        };
+        assert!(
+            (force - mean).abs() <= 1e-9 * mean.abs().max(1e-3),
+            "step {number}: {force} {mean}"
+        );
+    }
+}

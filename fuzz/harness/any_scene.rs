@@ -14,6 +14,7 @@ pub use fmi_component::c_api::{Boolean, CallbackFunctions, Fmi2Log, Intermediate
 pub const ANY_SCENE: ModelType = ModelType {
     info,
     events: true,
+    input_parts: 4,
     variables,
     prepare,
 };

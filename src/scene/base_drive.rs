@@ -15,6 +15,11 @@ pub trait BaseDrive: Drive {
     /// Whether inputs move it, so that [`BaseDrive::set_target`] changes it.
     const STEERED: bool;
 
+    /// Parts of a step after which an importer may renew inputs, if it offers them inside of steps: [`Model::INPUT_PARTS`].
+    ///
+    /// [`Model::INPUT_PARTS`]: crate::scene::Model::INPUT_PARTS
+    const INPUT_PARTS: u32 = if Self::STEERED { 4 } else { 0 };
+
     /// What the displacement at the start depends on, as in [`Row::depending_on`](crate::scene::Row::depending_on).
     const DISPLACEMENT_AT_START: &'static [&'static str];
     /// What the velocity at the start depends on.

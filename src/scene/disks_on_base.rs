@@ -19,8 +19,19 @@ use super::{Causality, Row, Unit, Variable};
 pub struct StepReport {
     /// Time reached \[s\].
     pub time: f64,
+    /// Beginning of the last communication step \[s\].
+    pub begun: f64,
     /// Vertical force of the disks on the base \[N\], mean over the last communication step.
     pub reaction_force: f64,
+}
+
+/// Which part of a communication step is done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stretch {
+    /// Its beginning, or all of it.
+    Beginning,
+    /// What comes after an intermediate update.
+    Rest,
 }
 
 impl StepReport {
@@ -28,13 +39,28 @@ impl StepReport {
     pub fn at_start(time: f64) -> Self {
         Self {
             time,
+            begun: time,
             reaction_force: 0.0,
+        }
+    }
+
+    /// After `stretch` of a communication step, which ends at `time` \[s\] and in which the disks gave the base `impulse` \[N.s\].
+    #[must_use]
+    pub fn after(&self, stretch: Stretch, time: f64, impulse: f64) -> Self {
+        let (begun, earlier) = match stretch {
+            Stretch::Beginning => (self.time, 0.0),
+            Stretch::Rest => (self.begun, self.reaction_force * (self.time - self.begun)),
+        };
+        Self {
+            time,
+            begun,
+            reaction_force: (earlier + impulse) / (time - begun),
         }
     }
 
     /// Whether every number is finite and far from overflow.
     pub fn is_sane(&self) -> bool {
-        are_sane([self.time, self.reaction_force])
+        are_sane([self.time, self.begun, self.reaction_force])
     }
 }
 

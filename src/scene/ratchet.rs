@@ -21,10 +21,10 @@ use crate::error::are_sane;
 use crate::measure::Transport;
 
 use super::base_drive::BaseDrive;
-use super::disks_on_base::{DisksOnBase, StepReport, complete};
+use super::disks_on_base::{DisksOnBase, StepReport, Stretch, complete};
 use super::hard_disks::{HardBase, HardDisksOnBase};
 use super::work_limit::WorkLimit;
-use super::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Values, Warning, info};
+use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Values, Warning, info};
 pub use fields::Resolution;
 use refusals::{impossible_motion, refusal};
 
@@ -97,16 +97,25 @@ where
     /// # Errors
     /// As [`Model::advance_to`]; what was shown then does not count.
     pub fn advance_observed(&mut self, end_time: f64, values: &Values, observer: &mut impl Observer) -> Result<()> {
+        self.advance_stretch(Stretch::Beginning, end_time, values, observer)
+    }
+
+    fn advance_stretch(
+        &mut self,
+        stretch: Stretch,
+        end_time: f64,
+        values: &Values,
+        observer: &mut impl Observer,
+    ) -> Result<()> {
         self.back_up();
-        let (from, impulse) = (self.report.time, self.engine.state().counts.base_impulse);
+        let impulse = self.engine.state().counts.base_impulse;
         let outcome = self.run_to(end_time, values, observer);
         if let Err(error) = outcome.and_then(|()| self.check(NAME, end_time)) {
             self.go_back(&self.backup.clone())?;
             return Err(error);
         }
         let given = self.engine.state().counts.base_impulse - impulse;
-        self.report.time = end_time;
-        self.report.reaction_force = -given / (end_time - from);
+        self.report = self.report.after(stretch, end_time, -given);
         Ok(())
     }
 
@@ -178,6 +187,8 @@ where
     Moving<D>: HardBase<Drive = D>,
 {
     type State = RatchetState<Sawtooth<D>>;
+
+    const INPUT_PARTS: u32 = D::INPUT_PARTS;
 
     fn info() -> ModelInfo {
         SceneInfo {
@@ -262,6 +273,14 @@ where
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
         self.advance_observed(end_time, values, &mut Unobserved)
+    }
+
+    fn resume_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        self.advance_stretch(Stretch::Rest, end_time, values, &mut Unobserved)?;
+        Ok(Reached {
+            time: end_time,
+            event: false,
+        })
     }
 
     fn warnings(&self) -> Vec<Warning> {

@@ -17,11 +17,11 @@ use crate::error::are_sane;
 use crate::measure::BatchMeans;
 
 use super::disks_on_base::{
-    BaseRows, DisksOnBase, StepReport, complete, heights, horizontal_positions, mean_angular_velocity, mean_velocity,
-    names, rotations,
+    BaseRows, DisksOnBase, StepReport, Stretch, complete, heights, horizontal_positions, mean_angular_velocity,
+    mean_velocity, names, rotations,
 };
 use super::work_limit::WorkLimit;
-use super::{Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning};
+use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning};
 use engine::AtStart;
 pub use engine::{SpecificEnergies, WedgeEngine};
 pub use rigid::{EventDriven, Map};
@@ -114,6 +114,23 @@ impl<E: WedgeEngine> Wedge<E> {
     /// The engine, to observe everything that is no output.
     pub fn engine(&self) -> &E {
         &self.engine
+    }
+
+    /// Advances to `end_time` \[s\] under the inputs among `values`; the state is as before if that cannot be done.
+    fn advance_stretch(&mut self, stretch: Stretch, end_time: f64, values: &Values) -> Result<()> {
+        self.engine.copy_state_to(&mut self.backup);
+        let turning = self.turning.clone();
+        let from = self.report.time;
+        let impulse = self.engine.impulse() * self.mass;
+        self.engine.set_target(from, end_time - from, values);
+        if let Err(error) = self.run_sanely(end_time) {
+            self.engine.restore(&self.backup, from).map_err(E::refused_step)?;
+            self.turning = turning;
+            return Err(error);
+        }
+        let given = impulse - self.engine.impulse() * self.mass;
+        self.report = self.report.after(stretch, end_time, given);
+        Ok(())
     }
 
     /// Runs to `end_time`, reading the angle wherever a batch ends. Observing costs nothing of what follows.
@@ -226,6 +243,8 @@ impl<E: WedgeEngine> Wedge<E> {
 impl<E: WedgeEngine> Model for Wedge<E> {
     type State = WedgeState<E::State>;
 
+    const INPUT_PARTS: u32 = E::INPUT_PARTS;
+
     fn info() -> ModelInfo {
         SceneInfo {
             scene: NAME,
@@ -275,21 +294,15 @@ impl<E: WedgeEngine> Model for Wedge<E> {
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        self.engine.copy_state_to(&mut self.backup);
-        let turning = self.turning.clone();
-        let from = self.report.time;
-        let impulse = self.engine.impulse() * self.mass;
-        self.engine.set_target(from, end_time - from, values);
-        if let Err(error) = self.run_sanely(end_time) {
-            self.engine.restore(&self.backup, from).map_err(E::refused_step)?;
-            self.turning = turning;
-            return Err(error);
-        }
-        self.report = StepReport {
+        self.advance_stretch(Stretch::Beginning, end_time, values)
+    }
+
+    fn resume_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        self.advance_stretch(Stretch::Rest, end_time, values)?;
+        Ok(Reached {
             time: end_time,
-            reaction_force: (impulse - self.engine.impulse() * self.mass) / (end_time - from),
-        };
-        Ok(())
+            event: false,
+        })
     }
 
     fn warnings(&self) -> Vec<Warning> {

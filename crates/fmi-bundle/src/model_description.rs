@@ -76,7 +76,9 @@ fn capabilities(component: &Component, version: Version) -> Attributes {
     let offered = |causality| component.table().has_derivatives(causality);
     let order = if offered(Causality::Output) { "1" } else { "0" };
     let interpolates = if offered(Causality::Input) { "true" } else { "false" };
-    let events = if component.model().events { "true" } else { "false" };
+    let flag = |is: bool| if is { "true" } else { "false" };
+    let events = flag(component.model().events);
+    let updates = flag(component.model().events || component.model().input_parts > 0);
     let flags: &[(&'static str, &str)] = match version {
         Version::Two => &[
             ("needsExecutionTool", "false"),
@@ -100,9 +102,9 @@ fn capabilities(component: &Component, version: Version) -> Attributes {
             ("providesPerElementDependencies", "false"),
             ("canHandleVariableCommunicationStepSize", "true"),
             ("maxOutputDerivativeOrder", order),
-            ("providesIntermediateUpdate", events),
+            ("providesIntermediateUpdate", updates),
             ("mightReturnEarlyFromDoStep", events),
-            ("canReturnEarlyAfterIntermediateUpdate", events),
+            ("canReturnEarlyAfterIntermediateUpdate", updates),
             ("hasEventMode", events),
             ("providesEvaluateDiscreteStates", "false"),
         ],

@@ -140,6 +140,7 @@ mod tests {
         let model = ModelType {
             info,
             events: false,
+            input_parts: 0,
             variables: |_| variables(),
             prepare: |_| unreachable!("nothing is simulated"),
         };

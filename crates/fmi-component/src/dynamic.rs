@@ -21,6 +21,8 @@ pub struct ModelType {
     pub info: fn() -> ModelInfo,
     /// [`Model::EVENTS`].
     pub events: bool,
+    /// [`Model::INPUT_PARTS`].
+    pub input_parts: u32,
     /// [`Model::variables`] without how they are read.
     pub variables: fn(&StructuralParameters) -> Vec<Variable>,
     /// [`Simulation::prepare`].
@@ -33,6 +35,7 @@ impl ModelType {
         Self {
             info: M::info,
             events: M::EVENTS,
+            input_parts: M::INPUT_PARTS,
             variables: |structure| M::variables(structure).into_iter().map(|row| row.variable).collect(),
             prepare: |structure| Box::new(Simulation::<M>::prepare(structure)),
         }

@@ -55,6 +55,8 @@ pub struct Instance {
     stop: Option<f64>,
     /// Values, time and, when it is needed, the model.
     simulation: Box<dyn DynSimulation>,
+    /// Parts of a step after which the importer offers inputs; 0 if it does not.
+    input_parts: u32,
     /// A step that goes from event to event, while one is reported to the importer.
     under_way: Option<UnderWay>,
 }
@@ -88,6 +90,7 @@ impl Instance {
             phase: Phase::Instantiated,
             stop: None,
             simulation,
+            input_parts: 0,
             under_way: None,
         })
     }

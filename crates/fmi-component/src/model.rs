@@ -38,6 +38,10 @@ pub trait Model: Sized + Send + 'static {
     /// The model has events that an importer may want to stop at: [`Model::advance_to_event`] finds them.
     const EVENTS: bool = false;
 
+    /// Parts of equal length into which a step is divided for an importer that offers inputs inside of it; 0 for a model that takes
+    /// inputs at the beginning of a step alone. The first part is [`Model::advance_to`], the others [`Model::resume_to_event`].
+    const INPUT_PARTS: u32 = 0;
+
     /// Static facts.
     fn info() -> ModelInfo;
 
@@ -71,7 +75,8 @@ pub trait Model: Sized + Send + 'static {
     }
 
     /// Resumes a step that [`Model::advance_to_event`] ended at an event: inputs with a given rate continue at that rate, and
-    /// quantities of a whole step count from its beginning. The inputs among `values` are those of the beginning.
+    /// quantities of a whole step count from its beginning. The inputs among `values` are those of the beginning, unless
+    /// [`Model::INPUT_PARTS`] is above 0: then they are those of now.
     ///
     /// # Errors
     /// As [`Model::advance_to`].

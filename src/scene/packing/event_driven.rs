@@ -7,11 +7,11 @@ use crate::engine::DiskMotion;
 use crate::engine::event_driven::{Counts, EventDrivenStop, Moving, Partner};
 use crate::error::are_sane;
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, radii};
+use crate::scene::disks_on_base::{DisksOnBase, StepReport, Stretch, complete, radii};
 use crate::scene::hard_disks::{self, EnergyRows, HardDisksOnBase};
 use crate::scene::work_limit::WorkLimit;
 use crate::scene::{
-    Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning, info,
+    Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning, info,
 };
 
 use super::PackingState;
@@ -49,6 +49,24 @@ impl<E: HardEngine> HardPacking<E> {
     /// The engine, to observe everything that is no output.
     pub fn engine(&self) -> &E {
         &self.engine
+    }
+
+    /// Advances to `end_time` \[s\] under the inputs among `values`; the state is as before if that cannot be done.
+    fn advance_stretch(&mut self, stretch: Stretch, end_time: f64, values: &Values) -> Result<()> {
+        self.engine.copy_state_to(&mut self.backup);
+        let (from, impulse) = (self.report.time, self.counts().base_impulse);
+        self.engine.set_target(from, end_time - from, values);
+        let outcome = self
+            .engine
+            .advance_within(end_time, &mut self.work_limit.budget(self.engine.work_done(), end_time));
+        let outcome = outcome.map_err(refused_step).and_then(|()| self.check(NAME, end_time));
+        if let Err(error) = outcome {
+            self.engine.restore(&self.backup, from).map_err(refused_step)?;
+            return Err(error);
+        }
+        let given = self.counts().base_impulse - impulse;
+        self.report = self.report.after(stretch, end_time, -given);
+        Ok(())
     }
 }
 
@@ -118,6 +136,8 @@ fn refused_step(stop: EventDrivenStop) -> Error {
 
 impl<E: HardEngine> Model for HardPacking<E> {
     type State = PackingState<E::State>;
+
+    const INPUT_PARTS: u32 = E::Drive::INPUT_PARTS;
 
     fn info() -> ModelInfo {
         SceneInfo {
@@ -189,23 +209,15 @@ impl<E: HardEngine> Model for HardPacking<E> {
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        self.engine.copy_state_to(&mut self.backup);
-        let (from, impulse) = (self.report.time, self.counts().base_impulse);
-        self.engine.set_target(from, end_time - from, values);
-        let outcome = self
-            .engine
-            .advance_within(end_time, &mut self.work_limit.budget(self.engine.work_done(), end_time));
-        let outcome = outcome.map_err(refused_step).and_then(|()| self.check(NAME, end_time));
-        if let Err(error) = outcome {
-            self.engine.restore(&self.backup, from).map_err(refused_step)?;
-            return Err(error);
-        }
-        let given = self.counts().base_impulse - impulse;
-        self.report = StepReport {
+        self.advance_stretch(Stretch::Beginning, end_time, values)
+    }
+
+    fn resume_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        self.advance_stretch(Stretch::Rest, end_time, values)?;
+        Ok(Reached {
             time: end_time,
-            reaction_force: -given / (end_time - from),
-        };
-        Ok(())
+            event: false,
+        })
     }
 
     fn warnings(&self) -> Vec<Warning> {

@@ -8,11 +8,11 @@ use crate::engine::{DiskMotion, Engine};
 use crate::error::are_sane;
 use crate::geometry::Disk;
 use crate::scene::base_drive::{BaseDrive, TERMINAL};
-use crate::scene::disks_on_base::{DisksOnBase, StepReport, complete, names, radii};
+use crate::scene::disks_on_base::{DisksOnBase, StepReport, Stretch, complete, names, radii};
 use crate::scene::soft_disks::{SceneNormalForce, chosen_time_step, contact_laws, refused_step};
 use crate::scene::work_limit::WorkLimit;
 use crate::scene::{
-    Error, Model, ModelInfo, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning, info,
+    Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning, info,
 };
 
 use super::initial_packing::{self, NAME};
@@ -93,6 +93,24 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         walls
             .map(|(index, wall)| wall.follows_base * self.engine.impulse_of_wall(index)[1])
             .sum()
+    }
+
+    /// Advances to `end_time` \[s\] under the inputs among `values`; the state is as before if that cannot be done.
+    fn advance_stretch(&mut self, stretch: Stretch, end_time: f64, values: &Values) -> Result<()> {
+        let from = self.report.time;
+        let duration = end_time - from;
+        let impulse = self.impulse_of_base();
+        let drive = self.engine.drive_mut().clone();
+        self.engine.drive_mut().set_target(from, duration, values);
+        if let Err(breakdown) = self
+            .engine
+            .advance_within(end_time, &mut self.work_limit.budget(0, end_time))
+        {
+            *self.engine.drive_mut() = drive;
+            return Err(refused_step(NAME, breakdown));
+        }
+        self.report = self.report.after(stretch, end_time, impulse - self.impulse_of_base());
+        Ok(())
     }
 
     /// Kinetic, potential and elastic energy \[J\] together.
@@ -224,6 +242,8 @@ impl<S: SoftMethod, D: BaseDrive> DisksOnBase for SoftPacking<S, D> {
 impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
     type State = PackingState<GridState<D, S::Disks>>;
 
+    const INPUT_PARTS: u32 = D::INPUT_PARTS;
+
     fn info() -> ModelInfo {
         SceneInfo {
             scene: NAME,
@@ -272,23 +292,15 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
-        let from = self.report.time;
-        let duration = end_time - from;
-        let impulse = self.impulse_of_base();
-        let drive = self.engine.drive_mut().clone();
-        self.engine.drive_mut().set_target(from, duration, values);
-        if let Err(breakdown) = self
-            .engine
-            .advance_within(end_time, &mut self.work_limit.budget(0, end_time))
-        {
-            *self.engine.drive_mut() = drive;
-            return Err(refused_step(NAME, breakdown));
-        }
-        self.report = StepReport {
+        self.advance_stretch(Stretch::Beginning, end_time, values)
+    }
+
+    fn resume_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        self.advance_stretch(Stretch::Rest, end_time, values)?;
+        Ok(Reached {
             time: end_time,
-            reaction_force: (impulse - self.impulse_of_base()) / duration,
-        };
-        Ok(())
+            event: false,
+        })
     }
 
     fn warnings(&self) -> Vec<Warning> {

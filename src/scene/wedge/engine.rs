@@ -54,6 +54,8 @@ pub trait WedgeEngine: Engine {
     const DESCRIPTION: &'static str;
     /// What its outputs depend on at the start.
     const AT_START: AtStart;
+    /// See [`BaseDrive::INPUT_PARTS`](crate::scene::base_drive::BaseDrive::INPUT_PARTS).
+    const INPUT_PARTS: u32 = 0;
 
     /// Parameters of its contacts.
     fn contact_rows<M>() -> Vec<Row<M>>;

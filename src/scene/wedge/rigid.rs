@@ -193,6 +193,7 @@ impl<D: BaseDrive + FirstHit> WedgeEngine for EventDriven<D> {
     const DRIVE: &'static str = D::NAME;
     const IDENTIFIER: &'static str = "jostle_wedge_event_driven";
     const DESCRIPTION: &'static str = "Disk that bounces in a vibrating wedge, exactly from impact to impact";
+    const INPUT_PARTS: u32 = D::INPUT_PARTS;
     const AT_START: AtStart = AtStart {
         place: &["seed"],
         displacement: D::DISPLACEMENT_AT_START,

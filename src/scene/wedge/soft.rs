@@ -29,6 +29,7 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
     const DRIVE: &'static str = D::NAME;
     const IDENTIFIER: &'static str = "jostle_wedge_molecular_dynamics";
     const DESCRIPTION: &'static str = "Disk that bounces in a vibrating wedge, by molecular dynamics";
+    const INPUT_PARTS: u32 = D::INPUT_PARTS;
     const AT_START: AtStart = AtStart {
         place: &[],
         displacement: D::DISPLACEMENT_AT_START,

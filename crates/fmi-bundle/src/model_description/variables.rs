@@ -38,6 +38,10 @@ fn write_variable(xml: &mut Xml, layout: &Layout<'_>, position: usize) -> io::Re
         ("causality", causality(variable.causality).into()),
         ("variability", variability(variable).into()),
     ];
+    let inside = layout.component.model().input_parts > 0 && variable.causality == Causality::Input;
+    if inside && layout.version == Version::Three {
+        about.push(("intermediateUpdate", "true".into()));
+    }
     about.extend(initial(variable.causality).map(|initial| ("initial", initial.into())));
     let kinds = match variable.kind {
         Kind::Real(_) => ("Real", "Float64"),

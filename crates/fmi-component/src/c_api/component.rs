@@ -118,6 +118,19 @@ impl Entry {
         unsafe { self.enter(checked) }
     }
 
+    /// Enters for calls that set values: shut inside of an intermediate update unless the importer is asked for inputs.
+    ///
+    /// # Safety
+    /// As for [`Entry::change`].
+    pub unsafe fn set(self, work: impl FnOnce(&mut Component) -> Result<()>) -> Status {
+        let checked = |component: &mut Component| {
+            component.instance.check_setting()?;
+            work(component)
+        };
+        // SAFETY: by the caller's promise.
+        unsafe { self.read(checked) }
+    }
+
     /// Enters for calls that only read values, which are allowed inside of an intermediate update.
     ///
     /// # Safety

@@ -79,28 +79,33 @@ pub unsafe fn instantiate(model: &ModelType, asked: Instantiation) -> Opaque {
             event_mode: asked.event_mode_used != FALSE,
             early_return: asked.early_return_allowed != FALSE,
         };
-        let instance = Instance::new(model, &token, importer)?;
+        let mut instance = Instance::new(model, &token, importer)?;
         let (required, count) = (asked.required_intermediate_variables, asked.required_count);
         // SAFETY: by the caller's promise.
         let required = unsafe { memory::slice(required, count, "requiredIntermediateVariables") }?;
-        check_required(&instance, required, asked.intermediate_update.is_some())?;
-        let listens = model.events && !importer.stops_at_events();
+        check_required(&instance, model, required, asked.intermediate_update.is_some())?;
+        let inputs = model.input_parts > 0 && required.iter().any(|reference| instance.is_input(*reference));
+        if inputs {
+            instance.offer_inputs(model.input_parts);
+        }
+        let listens = inputs || model.events && !importer.stops_at_events();
         let listener = asked.intermediate_update.filter(|_| listens).map(|update| Listener {
             update,
             environment,
             early_return: importer.early_return,
+            inputs,
         });
         Ok((instance, listener))
     })
 }
 
 /// Whether the variables can be given that an importer wants in intermediate updates.
-fn check_required(instance: &Instance, required: &[u32], listens: bool) -> Result<()> {
+fn check_required(instance: &Instance, model: &ModelType, required: &[u32], listens: bool) -> Result<()> {
     if required.is_empty() {
         return Ok(());
     }
     let variables = required.len();
-    if !instance.has_events() {
+    if !(model.events || model.input_parts > 0) {
         return Err(Error::call(
             format!("{variables} intermediate variables are required, but providesIntermediateUpdate = false"),
             "Pass nRequiredIntermediateVariables = 0.",

@@ -11,6 +11,8 @@ pub struct Listener {
     pub environment: Opaque,
     /// It lets steps end early.
     pub early_return: bool,
+    /// It offers inputs, and is asked for them.
+    pub inputs: bool,
 }
 
 impl Listener {
@@ -23,7 +25,7 @@ impl Listener {
             (self.update)(
                 self.environment,
                 time,
-                FALSE, // no input is asked for: those of the step hold to its end
+                Boolean::from(self.inputs), // else those of the beginning of the step hold to its end
                 TRUE,
                 TRUE,
                 Boolean::from(self.early_return),

@@ -53,7 +53,7 @@ pub unsafe fn get_long(entry: Entry, arrays: Arrays<*mut i64>) -> Status {
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn set_real(entry: Entry, arrays: Arrays<*const f64>) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.change(|component| component.set(arrays, Access::Real, Value::Real)) }
+    unsafe { entry.set(|component| component.set(arrays, Access::Real, Value::Real)) }
 }
 
 /// `fmi2SetInteger`, `fmi3SetInt32`.
@@ -62,7 +62,7 @@ pub unsafe fn set_real(entry: Entry, arrays: Arrays<*const f64>) -> Status {
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn set_integer(entry: Entry, arrays: Arrays<*const i32>, access: Access) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.change(|component| component.set(arrays, access, |value| Value::Integer(value.into()))) }
+    unsafe { entry.set(|component| component.set(arrays, access, |value| Value::Integer(value.into()))) }
 }
 
 /// `fmi3SetInt64`.
@@ -71,7 +71,7 @@ pub unsafe fn set_integer(entry: Entry, arrays: Arrays<*const i32>, access: Acce
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn set_long(entry: Entry, arrays: Arrays<*const i64>) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.change(|component| component.set(arrays, Access::Long, Value::Integer)) }
+    unsafe { entry.set(|component| component.set(arrays, Access::Long, Value::Integer)) }
 }
 
 /// `fmi2GetRealOutputDerivatives`, `fmi3GetOutputDerivatives`.

@@ -1,4 +1,5 @@
-//! Steps of an instance: as a whole, to the first event, or from event to event with a report to the importer at each.
+//! Steps of an instance: as a whole, to the first event, or from event to event with a report to the importer at each. For an
+//! importer that offers inputs inside of a step, the places where it is asked for them stand for the events.
 //!
 //! Guarantees: a refused step leaves time, values and state as before, even if events inside of it were reported already.
 
@@ -17,7 +18,7 @@ const POINT_TOLERANCE_OF_TIME: f64 = 64.0 * f64::EPSILON;
 /// How far a step got that goes from event to event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Part {
-    /// To an event at this time \[s\], before the end of the step. [`Instance::resume_step`] does the rest.
+    /// To an event, or to where inputs may be renewed, at this time \[s\], before the end of the step. [`Instance::resume_step`] does the rest.
     Event(f64),
     /// To its end, or to where the importer wanted to have it ended.
     Done(Reached),
@@ -27,8 +28,14 @@ pub enum Part {
 pub(super) struct UnderWay {
     /// All as it was before the step, in case that the rest is refused.
     before: Snapshot,
-    /// Where it is to end \[s\].
+    /// Where it began \[s\].
+    begin: f64,
+    /// Where the importer asked it to end \[s\].
+    asked: f64,
+    /// Where it is to end \[s\]: there, or before by an early return.
     end: f64,
+    /// Parts done, if inputs are offered inside.
+    parts: u32,
 }
 
 impl Instance {
@@ -58,9 +65,37 @@ impl Instance {
     pub fn begin_step(&mut self, current: f64, step: f64) -> Result<Part> {
         Call::DoStep.check(self.phase)?;
         let end = self.end_of_step(current, step)?;
-        let before = self.save()?;
-        let reached = self.simulation.advance_to_event(end);
-        self.end_part(UnderWay { before, end }, reached)
+        let step = UnderWay {
+            before: self.save()?,
+            begin: self.time(),
+            asked: end,
+            end,
+            parts: 0,
+        };
+        let reached = match self.input_parts {
+            0 => self.simulation.advance_to_event(end),
+            _ => self.advance_part(&step),
+        };
+        self.end_part(step, reached)
+    }
+
+    /// The first part of a step inside of which inputs are offered.
+    fn advance_part(&mut self, step: &UnderWay) -> Result<Reached> {
+        let time = self.end_of_part(step);
+        self.simulation.advance_to(time)?;
+        Ok(Reached { time, event: false })
+    }
+
+    /// Where the next part of a step ends \[s\].
+    fn end_of_part(&self, step: &UnderWay) -> f64 {
+        let done = step.parts + 1;
+        if done >= self.input_parts {
+            return step.end;
+        }
+        let share = f64::from(done) / f64::from(self.input_parts);
+        step.end
+            .min(step.begin + share * (step.asked - step.begin))
+            .max(self.time().next_up())
     }
 
     /// Resumes a step after an event. The step ends at `early_return` \[s\] if that is given, or at once if it is past or not
@@ -74,13 +109,14 @@ impl Instance {
         let Some(mut step) = under_way else {
             return Err(Error::call("no step is under way", "Reset the instance."));
         };
+        step.parts += 1;
         let now = self.time();
         if let Some(time) = early_return {
             let wanted = if time.is_finite() { time.max(now) } else { now };
             step.end = step.end.min(wanted);
         }
         let reached = match step.end > now {
-            true => self.simulation.resume_to_event(step.end),
+            true => self.simulation.resume_to_event(self.end_of_part(&step)),
             false => Ok(Reached {
                 time: now,
                 event: false,
@@ -103,6 +139,22 @@ impl Instance {
         match self.under_way {
             Some(_) => Call::Change.check(Phase::IntermediateUpdate),
             None => Ok(()),
+        }
+    }
+
+    /// From now on the importer is asked for inputs inside of steps that [`Instance::begin_step`] begins.
+    pub fn offer_inputs(&mut self, parts: u32) {
+        self.input_parts = parts;
+    }
+
+    /// Whether inputs may be set now, as far as steps are concerned.
+    ///
+    /// # Errors
+    /// A step is under way inside of which no inputs are asked for.
+    pub fn check_setting(&self) -> Result<()> {
+        match self.input_parts {
+            0 => self.check_change(),
+            _ => Ok(()),
         }
     }
 

@@ -85,6 +85,13 @@ impl Instance {
         reference == TIME_REFERENCE || self.slot(reference).is_some_and(|slot| slot.span > 0)
     }
 
+    /// Whether an input is behind `reference`.
+    pub fn is_input(&self, reference: u32) -> bool {
+        let position = (reference as usize).checked_sub(1);
+        let variable = position.and_then(|position| self.table.variables().get(position));
+        variable.is_some_and(|variable| variable.causality == Causality::Input)
+    }
+
     /// Value behind `reference`; of an array the first element.
     ///
     /// # Errors
@@ -263,7 +270,8 @@ impl Instance {
 
     fn check_settable(&self, variable: &Variable) -> Result<()> {
         let before = matches!(self.phase, Phase::Instantiated | Phase::Initialization);
-        let running = matches!(self.phase, Phase::Event | Phase::Step);
+        let inside = self.phase == Phase::IntermediateUpdate && self.input_parts > 0;
+        let running = inside || matches!(self.phase, Phase::Event | Phase::Step);
         match variable.causality {
             Causality::Parameter if before => Ok(()),
             Causality::Input if before || running => Ok(()),

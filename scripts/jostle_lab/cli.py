@@ -9,7 +9,7 @@ from pathlib import Path
 
 import typer
 
-from jostle_lab.demos.packing.command import demo, draw, exchanges
+from jostle_lab.demos.packing.command import demo, draw, exchanges, held_loop, step_control
 from jostle_lab.demos.ratchet.command import ratchet_demo
 from jostle_lab.demos.torque.command import torque_demo
 from jostle_lab.errors import LabError, describe_os_error
@@ -79,4 +79,6 @@ def call(app: typer.Typer) -> None:
 
 def main() -> None:
     """Entry point."""
-    call(application(HELP, demo, draw, exchanges, sweep, ratchet_demo, torque_demo, loudspeaker))
+    call(
+        application(HELP, demo, draw, exchanges, held_loop, step_control, sweep, ratchet_demo, torque_demo, loudspeaker)
+    )

@@ -162,8 +162,8 @@ def bundle(program: Path, folder: Path) -> None:
 HEAD = """# Base on inputs
 
 Written by `python -m tools base-on-inputs` from `docs/generated/base-on-inputs/*.csv`, which `--compute` measures on
-the packing FMU through fmpy: inputs are set at each communication point, then the step is done. Between these points the
-base follows a quintic to where an extrapolation of the inputs leads ([how](../physics.md)).
+the packing FMU through fmpy: inputs are set at each communication point, then the step is done. Between them the base
+follows a quintic to where an extrapolation of the inputs leads ([how](../physics.md)).
 """
 MOTION = """## Error of the motion
 

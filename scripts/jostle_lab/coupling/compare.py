@@ -1,12 +1,11 @@
-"""The three orders of exchange side by side: coupling error, Gamma and cost for several step sizes."""
+"""The orders of exchange side by side: coupling error, Gamma and cost for several step sizes."""
 
-from collections.abc import Callable
 from time import perf_counter
 
 from jostle_lab.coupling.exchange import Exchange
 from jostle_lab.coupling.master import Coupling
 from jostle_lab.errors import LabError
-from jostle_lab.fmu.grains import Grains
+from jostle_lab.fmu.grains import Grains, GrainsFactory
 from jostle_lab.loudspeaker.model import Loudspeaker
 from jostle_lab.sensors.spectral_amplitude import true_amplitude
 from jostle_lab.tables import markdown_table
@@ -15,12 +14,12 @@ STEP_RATES = (400, 800, 1200, 2400, 4800, 9600)
 """Communication rates to compare [Hz]."""
 
 
-def compare_exchanges(factory: Callable[[int], Grains], seconds: int, amplitude: float, gamma: float = 5.0) -> str:
+def compare_exchanges(factory: GrainsFactory, seconds: int, amplitude: float, gamma: float = 5.0) -> str:
     """Markdown table, one run each of `seconds` at `amplitude` times the drive of `gamma`, after as long to settle."""
     rows = []
     for rate in STEP_RATES:
         for exchange in Exchange:
-            grains = factory(1)
+            grains = factory(1, exchange.parameters)
             try:
                 measured = _measure(grains, exchange, rate, seconds, amplitude, gamma)
             except LabError as error:

@@ -1,5 +1,6 @@
 """What the laboratory needs of the grains, whatever simulates them."""
 
+from collections.abc import Mapping
 from typing import Any, Protocol
 
 import numpy as np
@@ -9,8 +10,10 @@ from numpy.typing import NDArray
 class Grains(Protocol):
     """Disks in a box whose bottom follows inputs.
 
-    An implementation guarantees: between t and t + h the base moves on the cubic that continues its present position
-    and velocity to (displacement + h velocity, velocity), of the inputs given at t.
+    An implementation guarantees: between t and t + h the base moves on the quintic from its present position, velocity
+    and acceleration to those to which a polynomial through the inputs of t, and those before, leads at t + h. Of degree
+    two it is the parabola through the inputs of t alone:
+    (displacement + h velocity + h^2 acceleration / 2, velocity + h acceleration, acceleration).
     """
 
     radii: NDArray[np.float64]
@@ -21,11 +24,16 @@ class Grains(Protocol):
     """Inner width of the box [m]."""
     gravity: float
     """Acceleration of gravity [m/s2]."""
+    extrapolation_degree: int
+    """Degree of the polynomial through the inputs; -1: chosen by the errors of past predictions."""
     costs: dict[str, float]
     """Seconds of wall clock spent, by part."""
 
-    def step(self, displacement: float, velocity: float, step: float) -> float:
-        """Advance by `step` [s]; return the mean force [N, up positive] of the grains on the base over it."""
+    def step(self, displacement: float, velocity: float, acceleration: float, step: float) -> float:
+        """Advance by `step` [s]; return the mean force [N, up positive] of the grains on the base over it.
+
+        The first three are the motion of the base [m, m/s, m/s2] at the present time, before the step.
+        """
 
     def energy_input(self) -> float:
         """Work [J] done by the base on the grains since the start."""
@@ -47,3 +55,10 @@ class Grains(Protocol):
 
     def close(self) -> None:
         """Release everything."""
+
+
+class GrainsFactory(Protocol):
+    """Makes grains of a seed."""
+
+    def __call__(self, seed: int, /, extra: Mapping[str, float] = ...) -> Grains:
+        """Grains of one packing; `extra` has further parameters, which give way to those that the user chose."""

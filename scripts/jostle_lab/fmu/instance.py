@@ -284,8 +284,18 @@ class FmuInstance:
             again, *_ = self._fmu.updateDiscreteStates()
         self._fmu.enterStepMode()
 
+    @property
+    def can_save(self) -> bool:
+        """Whether it has the functions for its state."""
+        return bool(self._description.coSimulation.canGetAndSetFMUstate)
+
     def save(self) -> Any:
         """Handle of a copy of the state, for `restore` and `discard`."""
+        if not self.can_save:
+            raise LabError(
+                f"{self.path} cannot save its state (canGetAndSetFMUState is not true): "
+                "take an exchange without rollback and fixed steps."
+            )
         started = perf_counter()
         state = self._fmu.getFMUstate() if self.fmi_version == 2 else self._fmu.getFMUState()
         self.costs["save and restore"] += perf_counter() - started

@@ -1,9 +1,11 @@
 """A packing FMU as `Grains`."""
 
 import ctypes
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,9 @@ from numpy.typing import NDArray
 
 from jostle_lab.errors import LabError
 from jostle_lab.fmu.instance import FmuInstance
+
+NOTHING: Mapping[str, float] = MappingProxyType({})
+DEGREE = "base.extrapolation_degree"
 
 
 @dataclass(frozen=True)
@@ -28,16 +33,16 @@ class FmuFactory:
                 "seed cannot be set here: packing by packing it is 1, 2, ..., or from --first-seed on. Leave it out."
             )
 
-    def __call__(self, seed: int) -> "FmuGrains":
-        """Grains of one packing."""
-        return FmuGrains(Path(self.path), {**dict(self.parameters), "seed": seed})
+    def __call__(self, seed: int, /, extra: Mapping[str, float] = NOTHING) -> "FmuGrains":
+        """Grains of one packing; see `GrainsFactory`."""
+        return FmuGrains(Path(self.path), {**extra, **dict(self.parameters), "seed": seed})
 
 
 class FmuGrains(FmuInstance):
     """One instance of an FMU of disks on a base that follows inputs: a packing, unless a subclass says otherwise."""
 
     def _prepare(self) -> None:
-        self._inputs = self.group(["base.displacement", "base.velocity"])
+        self._inputs = self.group(["base.displacement", "base.velocity", "base.acceleration_input"])
         self._force = self.group(["base.reaction_force"])
         self._energy = self.group(["energy.input"])
         disks = range(1, 1 + sum(name.startswith("disk.angle[") for name in self._variables))
@@ -45,6 +50,7 @@ class FmuGrains(FmuInstance):
         self._positions = self.group([f"disk.{axis}[{i}]" for i in disks for axis in "xy"])
         self.radii = self.read_group(self.group([f"disk.radius[{i}]" for i in disks])).copy()
         self.gravity = self.read("gravity")
+        (self.extrapolation_degree,) = self.read_integers([DEGREE])
         self.box_width, self.weight = self._width_and_weight()
         self._start = self._step = 0.0
         self._steps = 0
@@ -54,11 +60,10 @@ class FmuGrains(FmuInstance):
         area = float(np.pi * np.sum(self.radii**2))
         return self.read("box.width"), self.read("disk.surface_density") * area * self.gravity
 
-    def step(self, displacement: float, velocity: float, step: float) -> float:
+    def step(self, displacement: float, velocity: float, acceleration: float, step: float) -> float:
         """See `Grains.step`."""
         started = perf_counter()
-        self._inputs.values[0] = displacement
-        self._inputs.values[1] = velocity
+        self._inputs.values[:] = displacement, velocity, acceleration
         self.write_group(self._inputs, "setting the base")
         self.costs["get and set"] += perf_counter() - started
         return self._advance(step)

@@ -14,6 +14,7 @@ own but rounding. Not here: order of the exchange with the grains (`coupling`).
 import cmath
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,8 +34,22 @@ class SteadyState:
     acceleration: complex
 
 
+STEPS = 1e-7, 1.0
+"""Least and greatest communication step [s]."""
+KEPT_TRANSITIONS = 64
+"""Steps whose matrices are kept."""
+
+
+class _Mark(NamedTuple):
+    """When step or frequency changed last: what is counted from there."""
+
+    steps: int = 0
+    time: float = 0.0
+    turns: float = 0.0
+
+
 class Loudspeaker:
-    """A driver that carries the rail and the bottom of the box, stepped exactly with a fixed step.
+    """A driver that carries the rail and the bottom of the box, stepped exactly; the step changes only when told.
 
     Args:
         step: communication step h [s].
@@ -53,17 +68,18 @@ class Loudspeaker:
         driver: Driver = GBS_250F38CP01_04,
         carried_mass: float = CARRIED_MASS,
     ) -> None:
-        self.step_size = require("communication step [s]", step, 1e-7, 1.0, "Choose a step between 1e-5 and 1e-3 s.")
+        self.step_size = require("communication step [s]", step, *STEPS, "Choose a step between 1e-5 and 1e-3 s.")
         self.drive_frequency = require("drive frequency [Hz]", drive_frequency, 1e-3, 1e5, "The thesis drives at 80.")
         self.grains_weight = grains_weight
         self.driver = driver
         self.mass = driver.moving_mass + carried_mass
         self.voltage_amplitude = 0.0
         self.steps_taken = 0
-        self._tuned_at, self._tuned_turns = 0, 0.0
+        self._mark = _Mark()
         self._state = np.zeros(3)
         self._input = np.zeros(6)
-        self._transition = self._transition_matrix(step)
+        self._transitions: dict[tuple[float, float], NDArray[np.float64]] = {}
+        self._transition = self._transition_matrix()
 
     def system_matrix(self) -> NDArray[np.float64]:
         """Matrix of d/dt (i, x, v) = A (i, x, v) without drive and grains, shape (3, 3)."""
@@ -76,34 +92,48 @@ class Loudspeaker:
             ]
         )
 
-    def _transition_matrix(self, step: float) -> NDArray[np.float64]:
+    def _transition_matrix(self) -> NDArray[np.float64]:
         """First three rows of exp(M h) for the state (i, x, v, F + W, u, du/dt / (2 pi f)), shape (3, 6)."""
-        angular_frequency = math.tau * self.drive_frequency
-        joined = np.zeros((6, 6))
-        joined[:3, :3] = self.system_matrix()
-        joined[2, 3] = 1.0 / self.mass
-        joined[0, 4] = 1.0 / self.driver.coil_inductance
-        joined[4, 5] = angular_frequency
-        joined[5, 4] = -angular_frequency
-        return np.ascontiguousarray(expm(joined * step)[:3])
+        key = (self.step_size, self.drive_frequency)
+        if key not in self._transitions:
+            while len(self._transitions) >= KEPT_TRANSITIONS:
+                del self._transitions[next(iter(self._transitions))]
+            angular_frequency = math.tau * self.drive_frequency
+            joined = np.zeros((6, 6))
+            joined[:3, :3] = self.system_matrix()
+            joined[2, 3] = 1.0 / self.mass
+            joined[0, 4] = 1.0 / self.driver.coil_inductance
+            joined[4, 5] = angular_frequency
+            joined[5, 4] = -angular_frequency
+            self._transitions[key] = np.ascontiguousarray(expm(joined * self.step_size)[:3])
+        return self._transitions[key]
 
     def retune(self, drive_frequency: float) -> None:
         """Drive at another frequency [Hz] from now on; the voltage goes on without a jump in phase."""
         require("drive frequency [Hz]", drive_frequency, 1e-3, 1e5, "Choose one between 5 and 500.")
-        self._tuned_turns, self._tuned_at = self.drive_turns, self.steps_taken
+        self._mark = _Mark(self.steps_taken, self.time, self.drive_turns)
         self.drive_frequency = drive_frequency
-        self._transition = self._transition_matrix(self.step_size)
+        self._transition = self._transition_matrix()
+
+    def change_step(self, step: float) -> None:
+        """Take steps of this length [s] from now on."""
+        if step == self.step_size:
+            return
+        require("communication step [s]", step, *STEPS, "Choose a step between 1e-5 and 1e-3 s.")
+        self._mark = _Mark(self.steps_taken, self.time, self.drive_turns)
+        self.step_size = step
+        self._transition = self._transition_matrix()
 
     @property
     def drive_turns(self) -> float:
         """Phase of the voltage in turns, in [0, 1)."""
-        since = self.steps_taken - self._tuned_at
-        return math.fmod(self._tuned_turns + self.drive_frequency * since * self.step_size, 1.0)
+        since = self.steps_taken - self._mark.steps
+        return math.fmod(self._mark.turns + self.drive_frequency * since * self.step_size, 1.0)
 
     @property
     def time(self) -> float:
-        """Time [s]: steps taken times step, never a running sum."""
-        return self.steps_taken * self.step_size
+        """Time [s]: steps taken times step while the step stays the same, never a running sum."""
+        return self._mark.time + (self.steps_taken - self._mark.steps) * self.step_size
 
     @property
     def current(self) -> float:
@@ -142,13 +172,15 @@ class Loudspeaker:
         self.steps_taken += 1
         return float(-reaction_force * (self._state[1] - before))
 
-    def save(self) -> tuple[NDArray[np.float64], int]:
-        """Everything that `advance` changes."""
-        return self._state.copy(), self.steps_taken
+    def save(self) -> tuple[NDArray[np.float64], int, float, _Mark]:
+        """Everything that `advance` and `change_step` change."""
+        return self._state.copy(), self.steps_taken, self.step_size, self._mark
 
-    def restore(self, saved: tuple[NDArray[np.float64], int]) -> None:
-        """Return to a state that `save` gave."""
-        self._state, self.steps_taken = saved[0].copy(), saved[1]
+    def restore(self, saved: tuple[NDArray[np.float64], int, float, _Mark]) -> None:
+        """Return to a state that `save` gave; the drive frequency stays."""
+        state, self.steps_taken, self.step_size, self._mark = saved
+        self._state = state.copy()
+        self._transition = self._transition_matrix()
 
     def energy(self) -> float:
         """Magnetic, elastic and kinetic energy [J], zero at equilibrium."""

@@ -16,11 +16,8 @@ from tqdm import tqdm
 
 from jostle_lab.errors import LabError
 from jostle_lab.files import read_json, replace_text
-from jostle_lab.fmu.grains import Grains
+from jostle_lab.fmu.grains import Grains, GrainsFactory
 from jostle_lab.protocol.experiment import FINISHED, Setup, run_packing
-
-GrainsFactory = Callable[[int], Grains]
-"""Makes the grains of a seed; importable or picklable, since other processes call it."""
 
 _reports: Any = None  # the queue of this worker process
 _grains: Grains | None = None  # those it shakes
@@ -118,7 +115,7 @@ def _end(*_: object) -> None:
 
 def _work(factory: GrainsFactory, setup: Setup, seed: int, folder: Path) -> None:
     global _grains  # noqa: PLW0603 - what a signal must find
-    _grains = grains = factory(seed)
+    _grains = grains = factory(seed, setup.exchange.parameters)
     try:
         run_packing(grains, setup, seed, folder, _reports.put)
     finally:

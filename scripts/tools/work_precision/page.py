@@ -20,10 +20,17 @@ from PIL import Image
 from jostle_lab.errors import LabError
 from jostle_lab.tables import markdown_table, read_text_rows
 from tools import instruction_counts
+from tools.work_precision import step_lengths
 
 COLOURS = ("#1f5fa8", "#d07a1f", "#2e7d4f", "#a23b72", "#6b6b6b", "#8a6d1f", "#3b9a9c", "#b03a2e", "#111111")
 MANY = 6
 """Curves beyond which the legend stands beside the diagram."""
+COMMUNICATION_STEP = "communication step [s]"
+"""Setting of diagrams that get a table of steps."""
+EARLIER = "earlier builds"
+"""In the names of methods that are no longer there: their curves are dotted."""
+CROWDED = 12
+"""Curves from which on a diagram is larger."""
 MARKERS = "osv^DPX*"
 ROUNDING = 1e-14
 """Errors below this are rounding: no order is fitted through them."""
@@ -145,12 +152,17 @@ def time_at(points: list[Point], error: float) -> float | None:
 
 
 def draw(diagram: Diagram, axes: Axes, colours: dict[str, tuple[str, str]]) -> None:
-    """Error against CPU time, both logarithmic; the order stands in the legend. Dashed: the statistical error alone."""
+    """Error against CPU time, both logarithmic; the order stands in the legend. Dashed: the statistical error alone.
+
+    Exchanges between models: error against the communication step.
+    """
+    by_step = diagram.setting == COMMUNICATION_STEP
     for method, points in diagram.curves.items():
         colour, marker = colours[method]
-        path = sorted(points, key=lambda p: p.cpu_seconds)
-        x, y = [p.cpu_seconds for p in path], [max(p.error, FLOOR) for p in path]
-        axes.plot(x, y, marker=marker, color=colour, ms=3.2, lw=1.0, label=_label(method, points))
+        path = sorted(points, key=lambda p: p.setting if by_step else p.cpu_seconds)
+        x, y = [p.setting if by_step else p.cpu_seconds for p in path], [max(p.error, FLOOR) for p in path]
+        style = ":" if EARLIER in method else "-"
+        axes.plot(x, y, marker=marker, color=colour, ms=3.2, lw=1.0, ls=style, label=_label(method, points))
         if diagram.is_statistical:
             bars = [p.error_bar for p in path]
             low = [min(bar, 0.9 * error) for bar, error in zip(bars, y, strict=True)]
@@ -160,7 +172,7 @@ def draw(diagram: Diagram, axes: Axes, colours: dict[str, tuple[str, str]]) -> N
     axes.set_yscale("log")
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_title(f"{diagram.case}: {diagram.quantity}", fontsize=8)
-    axes.set_xlabel("CPU time of one solution [s]", fontsize=7)
+    axes.set_xlabel(diagram.setting if by_step else "CPU time of one solution [s]", fontsize=7)
     axes.set_ylabel("bias; dashed: statistical error" if diagram.is_statistical else "error", fontsize=7)
     axes.tick_params(labelsize=6)
     axes.grid(lw=0.3, color="0.85")
@@ -182,7 +194,8 @@ def draw_all(found: list[Diagram], folder: Path) -> list[Path]:
         chosen = [diagram for diagram in found if diagram.case == case]
         methods = list(dict.fromkeys(method for diagram in chosen for method in diagram.curves))
         colours = {method: (COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]) for i, method in enumerate(methods)}
-        figure = Figure(figsize=(3.6 * len(chosen) if len(chosen) > 1 else 4.4, 3.0), layout="constrained")
+        size = (3.6 * len(chosen) if len(chosen) > 1 else 4.4, 3.0) if len(methods) < CROWDED else (8.6, 4.0)
+        figure = Figure(figsize=size, layout="constrained")
         for index, diagram in enumerate(chosen):
             draw(diagram, figure.add_subplot(1, len(chosen), index + 1), colours)
         path = folder / f"{case}.png"
@@ -255,13 +268,24 @@ def _section(chosen: list[Diagram], pictures: str) -> str:
     parts = [f"## {first.case}", first.problem]
     if not any(diagram.curves or diagram.troubles for diagram in chosen):
         return "\n\n".join([*parts, f"Not measured here: `jostle-bench report --only {first.case}`."])
-    parts.append(f"![Error against CPU time: {first.case}]({pictures}/{first.case}.png)")
+    against = "communication step" if first.setting == COMMUNICATION_STEP else "CPU time"
+    parts.append(f"![Error against {against}: {first.case}]({pictures}/{first.case}.png)")
     parts.append(f"Setting: {first.setting}. Reference: {first.reference}.")
     parts.extend(_numbers(diagram) for diagram in chosen)
+    parts.extend(_steps(diagram) for diagram in chosen if diagram.setting == COMMUNICATION_STEP)
     troubles = dict.fromkeys(trouble for diagram in chosen for trouble in diagram.troubles)
     if troubles:
         parts.append("Not done:\n" + "\n".join(f"- {trouble}" for trouble in troubles))
     return "\n\n".join(parts)
+
+
+def _steps(diagram: Diagram) -> str:
+    return step_lengths.section(
+        [
+            step_lengths.Curve(method, order(points), [(point.setting, point.error) for point in points])
+            for method, points in diagram.curves.items()
+        ]
+    )
 
 
 def _numbers(diagram: Diagram) -> str:

@@ -21,6 +21,7 @@ from tools.paths import (
     WORK_PRECISION_PAGE,
 )
 from tools.release import page as binaries_page
+from tools.work_precision import step_lengths
 from tools.work_precision.page import Point, diagrams, draw_all, order, page, time_at
 
 
@@ -80,6 +81,16 @@ def test_time_at_an_error_lies_on_the_curve() -> None:
     rising_again = curve([1e-2, 1e-4, 1e-2, 1e-5], [1.0, 2.0, 4.0, 8.0])
     crossed = time_at(rising_again, 1e-3)
     assert crossed is not None and 4.0 < crossed < 8.0 and not math.isnan(crossed)
+
+
+def test_longest_step_for_an_error_lies_on_the_curve() -> None:
+    errors = [(1e-2, 1e-1), (1e-3, 1e-3), (1e-4, 1e-5)]
+    assert step_lengths.step_at(errors, 1e-2) == pytest.approx(10.0**-2.5)
+    assert step_lengths.step_at(errors, 1e-6) is None
+    assert step_lengths.step_at(errors, 1.0) == 1e-2
+    assert "| second | 2.00 | 1.00e-02 or more |" in step_lengths.section(
+        [step_lengths.Curve("second", 2.0, [(1e-2, 1e-3)])]
+    )
 
 
 def test_a_folder_without_data_is_reported(tmp_path: Path) -> None:

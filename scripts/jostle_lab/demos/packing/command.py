@@ -1,4 +1,4 @@
-"""`jostle-lab demo`, `draw` and `exchanges`. What takes long to import is imported by the command that needs it."""
+"""`jostle-lab demo`, `draw`, `exchanges`, `held-loop`, `step-control`. Each command imports what it needs."""
 
 from contextlib import suppress
 from pathlib import Path
@@ -115,9 +115,37 @@ def exchanges(
     amplitude: Annotated[float, typer.Option(min=0.01, max=1.0, help="Fraction of the full drive.")] = 0.5,
     parameters: options.SetOption = None,
 ) -> None:
-    """Compare the coupling error and the cost of the three orders of exchange for several step sizes."""
+    """Compare the coupling error and the cost of the orders of exchange for several step sizes."""
     from jostle_lab.coupling.compare import compare_exchanges
     from jostle_lab.fmu.packing import FmuFactory
 
-    path, chosen = locate.fmu("packing.fmu", "packing", fmu), options.parameters(parameters)
-    typer.echo(compare_exchanges(FmuFactory(str(path), chosen), seconds, amplitude))
+    path = locate.fmu("packing.fmu", "packing", fmu)
+    typer.echo(compare_exchanges(FmuFactory(str(path), options.parameters(parameters)), seconds, amplitude))
+
+
+def held_loop(
+    fmu: options.FmuOption = None,
+    seconds: Annotated[int, typer.Option(min=1, max=100, help="Simulated seconds to settle, and to compare.")] = 2,
+    parameters: options.SetOption = None,
+) -> None:
+    """Longest step and order of each exchange in a loop with amplifier, loudspeaker and a controller of Gamma."""
+    from jostle_lab.demos.packing import held_loop as loop
+    from jostle_lab.fmu.packing import FmuFactory
+
+    path = locate.fmu("packing.fmu", "packing", fmu)
+    typer.echo(loop.table(FmuFactory(str(path), options.parameters(parameters)), seconds))
+
+
+def step_control(
+    fmu: options.FmuOption = None,
+    exchange: Annotated[Exchange, typer.Option(help="Order of the exchange; jacobi is not made for it.")] = (
+        Exchange.GRAINS_FIRST
+    ),
+    parameters: options.SetOption = None,
+) -> None:
+    """Compare controlled communication steps with fixed ones: error against cost of a burst of shaking."""
+    from jostle_lab.demos.packing import stepping
+    from jostle_lab.fmu.packing import FmuFactory
+
+    path = locate.fmu("packing.fmu", "packing", fmu)
+    typer.echo(stepping.table(FmuFactory(str(path), options.parameters(parameters)), exchange))

@@ -98,11 +98,11 @@ def test_a_mark_starts_the_average_anew(fmu: Path) -> None:
         motion = [2e-3 * math.sin(math.tau * 25.0 * n * STEP) for n in range(8192)]
         speed = [2e-3 * math.tau * 25.0 * math.cos(math.tau * 25.0 * n * STEP) for n in range(8192)]
         for n in range(4096):
-            grains.step(motion[n], speed[n], STEP)
+            grains.step(motion[n], speed[n], 0.0, STEP)
         grains.restart_averages()
         before = grains.mean_displacement()
         for n in range(4096, 8192):
-            grains.step(motion[n], speed[n], STEP)
+            grains.step(motion[n], speed[n], 0.0, STEP)
         assert grains.transport().mean == pytest.approx(100.0 * (grains.mean_displacement() - before), rel=1e-9)
         assert grains.weight == pytest.approx(20 * 1e-5 * 9.81)
         assert grains.box_width == pytest.approx(0.06)

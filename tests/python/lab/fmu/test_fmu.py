@@ -22,8 +22,10 @@ def shake(grains: FmuGrains, steps: int, first: int = 0, gamma: float = 3.0) -> 
     """Forces while the base moves as a sine; the same inputs whatever came before."""
     amplitude = gamma * 9.8 / OMEGA**2
     return [
-        grains.step(amplitude * np.sin(OMEGA * n * STEP), amplitude * OMEGA * np.cos(OMEGA * n * STEP), STEP)
-        for n in range(first, first + steps)
+        grains.step(
+            amplitude * np.sin(phase), amplitude * OMEGA * np.cos(phase), -amplitude * OMEGA**2 * np.sin(phase), STEP
+        )
+        for phase in OMEGA * STEP * np.arange(first, first + steps)
     ]
 
 
@@ -50,7 +52,7 @@ def test_an_input_derivative_is_the_velocity_of_the_base(fmu2: Path, fmu3: Path)
             displacement = amplitude * np.sin(OMEGA * n * STEP)
             velocity = amplitude * OMEGA * np.cos(OMEGA * n * STEP)
             derived.set_displacement_derivative(velocity)
-            assert derived.step_with_last_velocity(displacement, STEP) == set_.step(displacement, velocity, STEP)
+            assert derived.step_with_last_velocity(displacement, STEP) == set_.step(displacement, velocity, 0.0, STEP)
         assert state(derived) == state(set_)
     with closing(FmuGrains(fmu3)) as grains, pytest.raises(LabError, match=r"FMI 2\.0"):
         grains.set_displacement_derivative(0.1)
@@ -69,7 +71,8 @@ def test_rollback_in_the_middle_of_a_run_gives_the_same_bits(fmu: Path):
 
 
 def test_packing_is_that_of_the_thesis(fmu: Path):
-    with closing(FmuGrains(fmu, {"seed": 1})) as grains:
+    """Before it settles: then the disks press on the walls and overlap with them."""
+    with closing(FmuGrains(fmu, {"seed": 1, "initial.settled": 0})) as grains:
         assert grains.radii.size == 60
         np.testing.assert_allclose(np.sort(grains.radii), np.repeat([0.015, 0.02, 0.025], 20), rtol=1e-12)
         assert grains.weight == pytest.approx(3.57 * np.pi * 20 * 1.25e-3 * 9.8, rel=1e-12)
@@ -86,7 +89,7 @@ def test_seeds_differ(fmu: Path):
 
 @pytest.mark.parametrize("exchange", list(Exchange))
 def test_coupled_loop_runs(fmu: Path, exchange: Exchange):
-    with closing(FmuGrains(fmu, {"seed": 1})) as grains:
+    with closing(FmuGrains(fmu, {"seed": 1, **exchange.parameters})) as grains:
         coupling = Coupling(loudspeaker := Loudspeaker(STEP, grains_weight=grains.weight), grains, exchange)
         loudspeaker.voltage_amplitude = loudspeaker.voltage_for_acceleration(2.0 * grains.gravity)
         acceleration = coupling.run(480)
@@ -95,9 +98,25 @@ def test_coupled_loop_runs(fmu: Path, exchange: Exchange):
         assert loudspeaker.time == pytest.approx(0.2)
 
 
+@pytest.mark.parametrize("exchange", [Exchange.PLANNED, Exchange.ITERATED])
+def test_the_base_lands_where_the_loudspeaker_is_expected(fmu: Path, exchange: Exchange):
+    with closing(FmuGrains(fmu, {"seed": 1, **exchange.parameters})) as grains:
+        coupling = Coupling(loudspeaker := Loudspeaker(1.0 / 800, grains_weight=grains.weight), grains, exchange)
+        loudspeaker.voltage_amplitude = loudspeaker.voltage_for_acceleration(2.0 * grains.gravity)
+        coupling.run(40)
+        expected = []
+        coupling._step_grains = lambda motion: (
+            expected.append(motion.moved(loudspeaker.step_size)) or grains.step(*motion, loudspeaker.step_size)
+        )
+        coupling.advance()
+        found = [grains.read(f"base.{name}") for name in ("position", "velocity_output", "acceleration")]
+        np.testing.assert_allclose(found, expected[-1], rtol=1e-9)
+        assert found[0] == pytest.approx(loudspeaker.displacement, abs=2e-2 * 2.0 * 9.8 / OMEGA**2)
+
+
 def unrest(fmu: Path, exchange: Exchange, rate: int) -> float:
     """Standard deviation of the base velocity [m/s] without drive, 3 s after the packing was let go."""
-    with closing(FmuGrains(fmu, {"seed": 1})) as grains:
+    with closing(FmuGrains(fmu, {"seed": 1, "initial.settled": 0, **exchange.parameters})) as grains:
         coupling = Coupling(Loudspeaker(1.0 / rate, grains_weight=grains.weight), grains, exchange)
         coupling.run(3 * rate)
         velocities = []
@@ -109,7 +128,12 @@ def unrest(fmu: Path, exchange: Exchange, rate: int) -> float:
 
 @pytest.mark.parametrize(
     ("exchange", "calm_rate", "restless_rate"),
-    [(Exchange.JACOBI, 9600, 1200), (Exchange.GRAINS_FIRST, 1200, 200), (Exchange.ITERATED, 100, None)],
+    [
+        (Exchange.JACOBI, 9600, 1200),
+        (Exchange.GRAINS_FIRST, 1200, 200),
+        (Exchange.PLANNED, 1200, 160),
+        (Exchange.ITERATED, 400, None),
+    ],
     ids=str,
 )
 def test_stability_with_the_packing(fmu3: Path, exchange: Exchange, calm_rate: int, restless_rate: int | None):
@@ -125,7 +149,7 @@ def test_stability_with_the_packing(fmu3: Path, exchange: Exchange, calm_rate: i
 def test_coupling_error_of_grains_first_shrinks_with_the_step(fmu3: Path):
     errors = {}
     for rate in (2400, 19200):
-        with closing(FmuGrains(fmu3, {"seed": 1})) as grains:
+        with closing(FmuGrains(fmu3, {"seed": 1, **Exchange.GRAINS_FIRST.parameters})) as grains:
             coupling = Coupling(loudspeaker := Loudspeaker(1.0 / rate, grains_weight=grains.weight), grains)
             loudspeaker.voltage_amplitude = loudspeaker.voltage_for_acceleration(2.0 * grains.gravity)
             coupling.run(rate)
@@ -145,7 +169,7 @@ def test_momentum_mean_force_is_minus_the_weight(fmu: Path):
 
 def test_grains_at_rest_push_with_their_weight_and_take_no_work(fmu: Path):
     with closing(FmuGrains(fmu, {"seed": 1})) as grains:
-        forces = [grains.step(0.0, 0.0, STEP) for _ in range(24_000)]
+        forces = [grains.step(0.0, 0.0, 0.0, STEP) for _ in range(24_000)]
         assert np.mean(forces[-2400:]) == pytest.approx(-grains.weight, rel=0.05)
         assert grains.energy_input() == pytest.approx(0.0, abs=1e-12)
 
@@ -191,4 +215,4 @@ def test_a_seed_is_not_set_beside_that_of_the_packing():
 
 def test_base_at_nan_is_an_error_not_a_crash(fmu: Path):
     with closing(FmuGrains(fmu, {"seed": 1})) as grains, pytest.raises(LabError, match="failed while"):
-        grains.step(float("nan"), 0.0, STEP)
+        grains.step(float("nan"), 0.0, 0.0, STEP)

@@ -120,3 +120,24 @@ def test_restore_repeats_bit_for_bit():
     first = [speaker.advance(0.3), speaker.displacement, speaker.time]
     speaker.restore(saved)
     assert [speaker.advance(0.3), speaker.displacement, speaker.time] == first
+
+
+def test_steps_of_any_lengths_lead_to_the_same_motion():
+    straight, varied = Loudspeaker(STEP), Loudspeaker(STEP)
+    for speaker in (straight, varied):
+        speaker.voltage_amplitude = 5.0
+    for _ in range(12):
+        straight.advance(0.7)
+    for step, count in ((STEP, 2), (3.0 * STEP, 2), (0.25 * STEP, 12), (STEP, 1)):
+        varied.change_step(step)
+        saved = varied.save()
+        varied.change_step(0.1 * STEP)
+        varied.restore(saved)
+        for _ in range(count):
+            varied.advance(0.7)
+    assert varied.step_size == STEP
+    assert varied.time == pytest.approx(straight.time, rel=1e-14)
+    assert varied.drive_turns == pytest.approx(straight.drive_turns, rel=1e-12)
+    np.testing.assert_allclose(varied.save()[0], straight.save()[0], rtol=1e-11)
+    with pytest.raises(LabError, match=r"communication step \[s\]"):
+        varied.change_step(0.0)

@@ -146,7 +146,7 @@ def test_same_seed_gives_the_same_files(finished, tmp_path):
         ).read_bytes()
 
 
-def fail_to_make(message, seed):
+def fail_to_make(message, seed, _extra):
     raise LabError(f"{message} {seed}")
 
 
@@ -164,4 +164,9 @@ def test_empty_folder_is_reported(tmp_path):
 def test_comparison_of_exchanges_is_a_table(monkeypatch):
     monkeypatch.setattr("jostle_lab.coupling.compare.STEP_RATES", (800,))
     table = compare_exchanges(make_turning_lump, 1, 0.5)
-    assert [line.split("|")[2].strip() for line in table.splitlines()[2:]] == ["jacobi", "grains-first", "iterated"]
+    assert [line.split("|")[2].strip() for line in table.splitlines()[2:]] == [
+        "jacobi",
+        "grains-first",
+        "planned",
+        "iterated",
+    ]

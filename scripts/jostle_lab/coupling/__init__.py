@@ -1,1 +1,1 @@
-"""Masters that advance the loudspeaker and the grains together, and their comparison."""
+"""Masters that advance the loudspeaker and the grains together, their comparison, and the control of their steps."""

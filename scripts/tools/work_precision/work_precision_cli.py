@@ -12,7 +12,7 @@ from jostle_lab.fmu.packing import FmuFactory
 from jostle_lab.programs import output_of
 from jostle_lab.tables import write_table
 from tools.paths import INSTRUCTION_COUNTS, ROOT, WORK_PRECISION, WORK_PRECISION_PAGE
-from tools.work_precision import coupling_points, page, peer_points, points
+from tools.work_precision import coupling_points, loop_notes, page, peer_points, points
 
 REPORT = ("cargo", "run", "--release", "--quiet", "--package", "jostle-bench", "--", "report")
 """Measures the engines; its options follow."""
@@ -23,6 +23,7 @@ class Part(StrEnum):
 
     ENGINES = "engines"
     COUPLING = "coupling"
+    LOOPS = "loops"
     LAMMPS = "lammps"
     KERNEL = "kernel"
 
@@ -51,6 +52,9 @@ def work_precision(
             rows = coupling_points.measure(FmuFactory(str(path)), rounds)
             write_table(data / "points_coupling.csv", rows, points.COLUMNS)
             write_table(data / "cases_coupling.csv", coupling_points.CASES, points.CASE_COLUMNS)
+        elif part is Part.LOOPS:
+            path = locate.fmu("packing_fmi2.fmu", "packing", fmu, 2)
+            write_table(data / "notes_coupling.csv", loop_notes.notes(FmuFactory(str(path))))
         elif part is Part.LAMMPS:
             _peer(peer_points.lammps(data), data / "points_lammps.csv", rounds)
         else:

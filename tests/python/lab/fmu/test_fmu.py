@@ -9,6 +9,7 @@ from fmpy.validation import validate_fmu
 
 from jostle_lab.coupling.exchange import Exchange
 from jostle_lab.coupling.master import Coupling
+from jostle_lab.coupling.step_control import StepControl, advance_controlled
 from jostle_lab.errors import LabError
 from jostle_lab.fmu.instance import fingerprint
 from jostle_lab.fmu.packing import FmuFactory, FmuGrains
@@ -112,6 +113,18 @@ def test_the_base_lands_where_the_loudspeaker_is_expected(fmu: Path, exchange: E
         found = [grains.read(f"base.{name}") for name in ("position", "velocity_output", "acceleration")]
         np.testing.assert_allclose(found, expected[-1], rtol=1e-9)
         assert found[0] == pytest.approx(loudspeaker.displacement, abs=2e-2 * 2.0 * 9.8 / OMEGA**2)
+
+
+def test_steps_are_controlled_by_the_state_functions(fmu: Path):
+    with closing(FmuGrains(fmu, {"seed": 1, **Exchange.PLANNED.parameters})) as grains:
+        coupling = Coupling(loudspeaker := Loudspeaker(1e-4, grains_weight=grains.weight), grains, Exchange.PLANNED)
+        loudspeaker.voltage_amplitude = loudspeaker.voltage_for_acceleration(2.0 * grains.gravity)
+        advance_controlled(coupling, 0.0, 0.02, control := StepControl(1e-4))
+        assert grains.time == pytest.approx(0.02, abs=1e-12) and loudspeaker.time == pytest.approx(0.02, abs=1e-12)
+        assert control.accepted == len(control.steps) and sum(control.steps) == pytest.approx(0.02, rel=1e-9)
+        grains._description.coSimulation.canGetAndSetFMUstate = False
+        with pytest.raises(LabError, match=r"cannot save its state \(canGetAndSetFMUState is not true\)"):
+            advance_controlled(coupling, 0.02, 0.03, control)
 
 
 def unrest(fmu: Path, exchange: Exchange, rate: int) -> float:

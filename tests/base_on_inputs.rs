@@ -384,3 +384,34 @@ fn inputs_inside_of_a_step_are_taken() {
         );
     }
 }
+
+/// Inputs that are no number are refused and those before hold: the base does not leave its motion by more than where a linear
+/// prediction would lead from there.
+#[test]
+fn inputs_that_are_no_number_for_one_step_do_little_harm() {
+    let samples = 25;
+    let step = 1.0 / (FREQUENCY * f64::from(samples));
+    // The error of x + 2 h v after a step without new inputs, x and v being those of the step before.
+    let linear = 0.5 * (2.0 * TAU / f64::from(samples)).powi(2) * AMPLITUDE;
+    for values in 1..=3 {
+        for bad in 60..60 + samples {
+            let mut simulation = simulation_of::<PackingOnInput>(1, &[]);
+            for number in 0..90 {
+                if number == bad {
+                    let refused = ["base.displacement", "base.velocity", "base.acceleration_input"];
+                    for name in &refused[..values] {
+                        assert!(simulation.set(name, f64::NAN).is_err());
+                    }
+                } else {
+                    give(&mut simulation, sine(f64::from(number) * step), values);
+                }
+                simulation.advance_to(f64::from(number + 1) * step).unwrap();
+                let error = simulation.real("base.position").unwrap() - sine(f64::from(number + 1) * step)[0];
+                assert!(
+                    number < 40 || error.abs() < linear,
+                    "{values} inputs, step {number}, bad {bad}: {error:e}"
+                );
+            }
+        }
+    }
+}

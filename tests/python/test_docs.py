@@ -92,6 +92,14 @@ def test_controller_holds_gamma_of_a_loaded_shaker_and_its_cpp_twin_to_the_last_
     assert shell(snippet(CONTROL, "sh", "gamma-cpp")) == output
 
 
+def test_master_chooses_its_steps(fmu3: Path):
+    assert str(fmu3.relative_to(ROOT)) in snippet(CONTROL, "python", "step-control")
+    found = re.fullmatch(r"(\d+) steps of (.*) to (.*) ms\n", python(snippet(CONTROL, "python", "step-control")))
+    assert found is not None
+    assert 20 < int(found[1]) < 1000
+    assert 0.01 < float(found[2]) < float(found[3]) < 10.0
+
+
 def test_whole_steps_are_taken_back_and_done_in_halves(fmu3: Path):
     assert fmu3.is_file()
     output = python(snippet(CONTROL, "python", "states"))

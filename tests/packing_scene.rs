@@ -265,7 +265,7 @@ fn parameters_that_cannot_work_are_refused_by_name() {
 /// The packing starts on the base wherever the base starts, and a lifted base lifts it.
 #[test]
 fn packing_starts_on_the_base() {
-    let packing = simulation_of::<PackingOnInput>(60, &[("base.displacement", 0.25)]);
+    let packing = simulation_of::<PackingOnInput>(60, &[("base.displacement", 0.25), ("initial.settled", 0.0)]);
     let engine = packing.model().unwrap().engine();
     let lowest = engine
         .observables()

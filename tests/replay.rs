@@ -7,10 +7,11 @@ mod fmus;
 
 use fmi_bundle::{TOLERANCE, reference};
 use jostle::scene::catalogue::MODELS;
-use jostle::scene::{Causality, Kind, ModelType};
+use jostle::scene::{Causality, Kind, ModelType, Value};
 
 /// Largest relative difference between the reference and a run in which gravity is one unit in the last place greater:
-/// that touches every collision, as another rounding of a sine would.
+/// that touches every collision, as another rounding of a sine would. Packings that are settled first, by arithmetic that gives
+/// the same bits everywhere, get greater friction instead, which does not act while they settle.
 fn growth(model: &ModelType) -> f64 {
     let disks = (model.info)().structure[0].default;
     let component = fmus::component(model, disks);
@@ -22,12 +23,19 @@ fn growth(model: &ModelType) -> f64 {
         .map(|line| line.split(',').map(|value| value.parse().unwrap()).collect())
         .collect();
     let table = component.table();
-    let gravity = table.position("gravity").unwrap();
-    let Kind::Real(quantity) = &table.variables()[gravity].kind else {
-        panic!("gravity is real")
+    let settled = table
+        .position("initial.settled")
+        .map(|position| table.variables()[position].start());
+    let name = match settled {
+        Some(Value::Integer(1)) => "contact.friction",
+        _ => "gravity",
+    };
+    let changed = table.position(name).unwrap();
+    let Kind::Real(quantity) = &table.variables()[changed].kind else {
+        panic!("{name} is real")
     };
     let mut twin = (model.prepare)(component.structure().clone());
-    twin.set_at(gravity, quantity.start.next_up().into()).unwrap();
+    twin.set_at(changed, quantity.start.next_up().into()).unwrap();
     twin.start(0.0).unwrap();
     assert!(rows.len() > 16, "{identifier} refuses its reference");
     let mut largest: f64 = 0.0;

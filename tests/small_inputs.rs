@@ -152,7 +152,11 @@ fn a_perturbed_start_makes_seeds_differ_where_radii_are_equal() {
 #[test]
 fn displaced_disks_have_room() {
     for perturbation in [1e-6, 0.01, 0.5] {
-        let packing = simulation::<PackingOnInput>(60, &[("initial.perturbation", perturbation.into())]);
+        let given = [
+            ("initial.perturbation", perturbation.into()),
+            ("initial.settled", 0.into()),
+        ];
+        let packing = simulation::<PackingOnInput>(60, &given);
         assert_eq!(packing.integer("contacts").unwrap(), 0, "{perturbation}");
         let read = |name: &str, disk: usize| packing.real(&format!("disk.{name}[{disk}]")).unwrap();
         for disk in 1..=60 {

@@ -37,7 +37,7 @@ static void listing(const JostleSimulation *wedge) {
         enumerations += variable.kind == JOSTLE_KIND_ENUMERATION;
         EXPECT((variable.kind == JOSTLE_KIND_ENUMERATION) == (strlen(variable.options) > 0));
     }
-    EXPECT(inputs == 2 && enumerations == 0);
+    EXPECT(inputs == 3 && enumerations == 0);
     JostleVariable variable;
     EXPECT(jostle_variable(wedge, count, &variable) == JOSTLE_STATUS_ERROR);
     EXPECT(strstr(told(wedge), "jostle_find"));

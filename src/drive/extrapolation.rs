@@ -60,6 +60,11 @@ const CANDIDATES: [Candidate; 11] = [
     candidate(6, 1),
 ];
 
+/// Index of the candidate that holds the last sample.
+const CONSTANT: usize = index_of(1, 1);
+/// Index of the candidate that goes on at the rate of the last sample.
+const LINEAR: usize = index_of(1, 2);
+
 const fn candidate(points: usize, values: usize) -> Candidate {
     Candidate { points, values }
 }
@@ -272,6 +277,16 @@ impl InputHistory {
         found.copied()
     }
 
+    /// Whether going on at the rate of the last sample did about as well so far as holding its value.
+    fn rate_is_as_good(&self) -> bool {
+        let [.., before, last] = self.samples() else {
+            return false;
+        };
+        let step = last.time - before.time;
+        let [held, linear] = [self.errors[CONSTANT], self.errors[LINEAR] * step];
+        self.supports(CANDIDATES[LINEAR]) && linear >= 0.0 && linear <= PREFERENCE * held
+    }
+
     /// The lowest candidate whose expected error at `time` is not far from the least; before any has predicted a sample, the
     /// highest through one sample.
     fn best(&self, time: f64) -> Option<Candidate> {
@@ -288,10 +303,16 @@ impl InputHistory {
         };
         let errors: [f64; CANDIDATES.len()] = std::array::from_fn(expected);
         let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
+        let does_well = |index: &usize| errors[*index] <= PREFERENCE * least;
         if least < f64::INFINITY {
-            return (0..CANDIDATES.len())
-                .find(|&index| errors[index] <= PREFERENCE * least)
-                .map(|index| CANDIDATES[index]);
+            let lowest = (0..CANDIDATES.len()).find(does_well)?;
+            // Where an input has jumped, all have failed alike: a rate that is given counts.
+            let chosen = if lowest == CONSTANT && self.rate_is_as_good() {
+                LINEAR
+            } else {
+                lowest
+            };
+            return Some(CANDIDATES[chosen]);
         }
         let of_one = |candidate: &&Candidate| candidate.points == 1 && self.supports(**candidate);
         CANDIDATES.iter().rfind(of_one).copied()

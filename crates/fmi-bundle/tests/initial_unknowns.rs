@@ -16,6 +16,7 @@ const MODEL: ModelType = ModelType::of::<Oscillators>();
 const TRIALS: Trials = Trials {
     points: 16,
     is_tried: |_, _, _| true,
+    rounded: &[],
 };
 
 /// The oscillators with what their variables depend on.

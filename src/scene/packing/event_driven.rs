@@ -159,7 +159,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
 
     fn variables(structure: &StructuralParameters) -> Vec<Row<Self>> {
         let disks = info::disks(structure);
-        let at_start = AtStart::of::<E::Drive>(&["base.model"], &[]);
+        let at_start = AtStart::of::<E::Drive>(&["base.model"], rows::HARD_SETTLING);
         let energies = EnergyRows {
             nominal: 1e-3,
             potential: "Energy in gravity, zero at the height of the base at rest",

@@ -35,6 +35,9 @@ pub const SETTLING: &[&str] = &[
     "contact.normal_damping",
 ];
 
+/// The same of hard disks, which have no contacts while they settle.
+pub const HARD_SETTLING: &[&str] = &[SETTLED, "gravity"];
+
 /// What outputs depend on before the first step.
 pub struct AtStart {
     /// Radii of the disks.
@@ -58,18 +61,18 @@ pub struct AtStart {
 }
 
 impl AtStart {
-    /// With the drive D; `base_model` names the parameter that may hold the base at rest, if there is one, and `contact` what the
-    /// normal force depends on besides stiffness and damping.
-    pub fn of<D: BaseDrive>(base_model: &[&'static str], contact: &[&'static str]) -> Self {
+    /// With the drive D; `base_model` names the parameter that may hold the base at rest, if there is one, and `settling` what
+    /// decides where a settled packing rests.
+    pub fn of<D: BaseDrive>(base_model: &[&'static str], settling: &[&'static str]) -> Self {
         let position = [D::DISPLACEMENT_AT_START, base_model].concat();
-        let places = names(&[PLACES, SETTLING, contact]);
+        let places = names(&[PLACES, settling]);
         let heights = names(&[&places, &position]);
         let mass_and_motion = &[SETTLED, "seed", "disk.surface_density", RADII[0], RADII[1], RADII[2]];
         Self {
             radii: names(&[&RADII, &["seed"]]),
             touching: Arc::clone(&heights),
             kinetic_energy: names(&[mass_and_motion, D::VELOCITY_AT_START, base_model]),
-            potential_energy: Arc::clone(&heights),
+            potential_energy: names(&[&heights, &["gravity", "disk.surface_density"]]),
             heights,
             places,
             base_velocity: names(&[D::VELOCITY_AT_START, base_model]),

@@ -60,7 +60,8 @@ pub fn soft<N: NormalForce>(disks: Vec<Disk>, normal: N, values: &Values) -> Res
     if !is_wanted(values) {
         return Ok(Settled { disks, warning: None });
     }
-    relaxed(disks, normal, AT_REST, values)
+    let masses = initial_packing::masses(&disks, values);
+    relaxed(disks, masses, normal, AT_REST, values)
 }
 
 /// Gap of neighbours of hard disks over the sum of their radii in the packing that [`hard`] settles.
@@ -77,7 +78,8 @@ pub fn gap_of_hard_disks(values: &Values) -> f64 {
 /// # Errors
 /// As [`soft`].
 pub fn hard(disks: Vec<Disk>, values: &Values) -> Result<Settled> {
-    let masses = initial_packing::masses(&disks, values);
+    // Where hard disks rest does not depend on their density.
+    let masses: Vec<f64> = disks.iter().map(|disk| disk.radius * disk.radius).collect();
     let smallest = disks.iter().map(|disk| disk.radius).fold(f64::INFINITY, f64::min);
     let lightest = masses.iter().copied().fold(f64::INFINITY, f64::min);
     let weight = values.real("gravity") * masses.iter().sum::<f64>();
@@ -95,7 +97,7 @@ pub fn hard(disks: Vec<Disk>, values: &Values) -> Result<Settled> {
         ..*disk
     };
     let inflated = disks.iter().map(|disk| scaled(disk, 1.0 + WIDER_GAP)).collect();
-    let mut settled = relaxed(inflated, normal, HARD_AT_REST, values)?;
+    let mut settled = relaxed(inflated, masses, normal, HARD_AT_REST, values)?;
     for (place, disk) in settled.disks.iter_mut().zip(&disks) {
         place.radius = disk.radius;
     }
@@ -127,8 +129,14 @@ fn gaps_are_open(disks: &[Disk], walls: &[Wall]) -> bool {
     })
 }
 
-fn relaxed<N: NormalForce>(disks: Vec<Disk>, normal: N, at_rest: f64, values: &Values) -> Result<Settled> {
-    let (gravity, masses) = (values.real("gravity"), initial_packing::masses(&disks, values));
+fn relaxed<N: NormalForce>(
+    disks: Vec<Disk>,
+    masses: Vec<f64>,
+    normal: N,
+    at_rest: f64,
+    values: &Values,
+) -> Result<Settled> {
+    let gravity = values.real("gravity");
     let fall: f64 = disks
         .iter()
         .zip(&masses)

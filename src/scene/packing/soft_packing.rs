@@ -1,7 +1,5 @@
 //! The packing of soft disks: rows, steps and states for any engine of soft disks.
 
-use std::sync::Arc;
-
 use crate::drive::Motion;
 use crate::engine::dem::{FixedGrid, GridState, SoftDiskSetup, TimeStepLimits};
 use crate::engine::{DiskMotion, Engine};
@@ -157,19 +155,13 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         );
         force
             .in_terminal(TERMINAL, "reaction_force_now")
-            .depending_on(&Self::pressed(at_start))
-    }
-
-    /// What overlaps and thus forces depend on at the start.
-    fn pressed(at_start: &AtStart) -> Arc<[&'static str]> {
-        names(&[&at_start.touching, D::VELOCITY_AT_START])
+            .depending_on(&at_start.touching)
     }
 
     /// Energies, and the closed contacts. Whether disks touch at the start, and how much energy that is, is a matter of
     /// rounding and thus of where the base is.
     fn energies_and_contacts(at_start: &AtStart) -> [Row<Self>; 7] {
         let energy = |name, description, read| Row::output(name, Unit::JOULE, 1e-3, description, read);
-        let pressed = Self::pressed(at_start);
         [
             energy(
                 "energy.kinetic",
@@ -188,7 +180,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
                 "Energy in the normal and tangential springs of closed contacts",
                 |packing| packing.engine.elastic_energy(),
             )
-            .depending_on(&pressed),
+            .depending_on(&at_start.touching),
             energy(
                 "energy.input",
                 "Work done by the base on the disks since the start",
@@ -263,7 +255,7 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
 
     fn variables(structure: &StructuralParameters) -> Vec<Row<Self>> {
         let disks = info::disks(structure);
-        let at_start = AtStart::of::<D>(&[], S::Normal::PARAMETERS);
+        let at_start = AtStart::of::<D>(&[], &[rows::SETTLING, S::Normal::PARAMETERS].concat());
         let mut rows = rows::parameters();
         rows.extend(S::Normal::rows());
         rows.extend(S::parameters());

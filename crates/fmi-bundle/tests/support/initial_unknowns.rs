@@ -21,6 +21,8 @@ pub struct Trials {
     pub points: usize,
     /// Whether a value is worth trying for a variable that is now at another.
     pub is_tried: fn(&Variable, now: Value, other: Value) -> bool,
+    /// Names of reals that few variations change, since they depend on something by rounding alone.
+    pub rounded: &'static [&'static str],
 }
 
 type Lists = BTreeMap<String, BTreeSet<String>>;
@@ -32,6 +34,9 @@ pub fn differences(component: &Component, trials: &Trials) -> Vec<String> {
     // A whole number changes where a threshold is crossed, which few of the variations do. Its list has to hold what they
     // found, and nothing that changes no real output.
     let whole = |name: &str| {
+        if trials.rounded.contains(&name) {
+            return true;
+        }
         let mut of_name = variables.iter().filter(|variable| stem(&variable.name) == name);
         of_name.any(|variable| !matches!(variable.kind, Kind::Real(_)))
     };
@@ -142,7 +147,7 @@ fn variations(variable: &Variable, now: Value, trials: &Trials) -> Vec<Value> {
             scaled.into_iter().chain(shifted).chain(ends).map(Value::Real).collect()
         }
         (Kind::Enumeration { options, .. }, _) => (1..=options.len() as i64).map(Value::Integer).collect(),
-        (_, Value::Integer(now)) => [1, 2, 3, 4, 5, now + 1, now + 2].map(Value::Integer).to_vec(),
+        (_, Value::Integer(now)) => [0, 1, 2, 3, 4, 5, now + 1, now + 2].map(Value::Integer).to_vec(),
         _ => unreachable!("a real holds a real"),
     };
     let allowed = all.into_iter().filter(|value| variable.check(*value).is_ok());
@@ -165,6 +170,9 @@ fn point(table: &Table, random: &mut Pcg64) -> Vec<Value> {
             (Kind::Real(_), Value::Real(start)) if chosen < 0.6 => Value::Real((0.7 + 0.6 * factor) * start),
             (Kind::Enumeration { options, .. }, _) if chosen < 0.6 => {
                 Value::Integer(1 + (factor * options.len() as f64) as i64)
+            }
+            (Kind::Long { range, .. }, _) if chosen < 0.6 && *range.end() < 10 => {
+                Value::Integer(range.start() + (factor * (1 + range.end() - range.start()) as f64) as i64)
             }
             (_, start) => start,
         };

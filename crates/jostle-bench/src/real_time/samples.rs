@@ -19,7 +19,7 @@ pub const OUTPUTS: [&str; 4] = [
     "base.reaction_force",
     "base.acceleration",
     "disk.angle[1]",
-    "disk.angular_velocity[1]",
+    "energy.input",
 ];
 pub const INPUTS: [&str; 2] = ["base.displacement", "base.velocity"];
 

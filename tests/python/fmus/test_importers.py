@@ -145,7 +145,8 @@ def test_states_cross_processes(folder: Path, tmp_path: Path, version: int):
     command = [sys.executable, "-c", STEP_ON, str(Path(__file__).parent), str(fmu), str(tmp_path / "there")]
     done = subprocess.run(command, input=bytes(data).hex(), capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    assert json.loads(done.stdout) == expected
+    # Before the last line is a warning: inputs that are held, although they have a rate, contradict each other.
+    assert json.loads(done.stdout.splitlines()[-1]) == expected
 
 
 def test_fmuloader_2(folder: Path, reference: list[list[float]]):

@@ -168,7 +168,7 @@ def test_a_torque_goes_on_at_its_rate_through_intermediate_updates(tmp_path: Pat
 
 
 @pytest.mark.parametrize("version", [2, 3])
-def test_a_torque_is_held_or_goes_on_at_its_rate(tmp_path: Path, version: int) -> None:
+def test_a_torque_is_extrapolated_held_or_goes_on_at_its_rate(tmp_path: Path, version: int) -> None:
     """Without friction the disk is a flywheel: angular velocity is the integral of torque over I = 0.05 kg.m2."""
     fmu = bundle(tmp_path, version, "input")
     step, steps = 0.01, 20
@@ -176,18 +176,19 @@ def test_a_torque_is_held_or_goes_on_at_its_rate(tmp_path: Path, version: int) -
     signal = np.zeros(steps + 1, dtype=[("time", float), ("torque", float), ("torque.rate", float)])
     signal["time"], signal["torque"], signal["torque.rate"] = times, times**2, 2 * times
     ends = {}
-    for rate in (True, False):
-        given = signal if rate else signal[["time", "torque"]]
+    for degree in (1, 0, -1):
+        given = signal if degree == 1 else signal[["time", "torque"]]
         result = simulate_fmu(
             fmu,
             stop_time=times[-1],
             output_interval=step,
-            start_values={"contact.friction": 0.0},
+            start_values={"contact.friction": 0.0, "torque.extrapolation_degree": degree},
             input=given,
             output=["disk.angular_velocity[1]"],
         )
-        ends[rate] = result["disk.angular_velocity[1]"][-1]
+        ends[degree] = result["disk.angular_velocity[1]"][-1]
     starts = times[:-1]
     held = np.sum(starts**2) * step / 0.05
-    assert ends[False] == pytest.approx(held, rel=1e-9)
-    assert ends[True] == pytest.approx(held + np.sum(starts) * step**2 / 0.05, rel=1e-9)
+    assert ends[0] == pytest.approx(held, rel=1e-9)
+    assert ends[-1] == pytest.approx(times[-1] ** 3 / 3.0 / 0.05, rel=2e-3)
+    assert ends[1] == pytest.approx(held + np.sum(starts) * step**2 / 0.05, rel=1e-9)

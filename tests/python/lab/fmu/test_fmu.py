@@ -212,8 +212,8 @@ def test_what_the_fmu_says_reaches_the_user(fmu: Path):
         FmuGrains(fmu, {"contact.friction": -1.0})
     assert ".." not in str(refused.value)
     with closing(FmuGrains(fmu)) as grains, pytest.raises(LabError, match=r"status 2.*step refused at t = "):
-        grains.step(0.0, 0.0, STEP)
-        grains.step(0.05, 0.0, STEP)  # 50 mm at once
+        grains.step(0.0, 0.0, 0.0, STEP)
+        grains.step(0.05, 0.0, 0.0, STEP)  # 50 mm at once
 
 
 def test_a_name_that_is_almost_right_is_proposed(fmu3: Path):

@@ -46,7 +46,10 @@ def test_no_component_is_forgotten() -> None:
 
 @pytest.mark.parametrize(("scene", "engine", "drive"), COMPONENTS)
 def test_valid_and_equal_in_both_versions(tmp_path: Path, scene: str, engine: str, drive: str) -> None:
-    """Bundled, validated, replayed, run for 0.05 s, after which hard disks on a base at rest collapse; the outputs of FMI 2.0 and FMI 3.0 are equal to the bit."""
+    """Bundled, validated, replayed, run for 0.05 s; the outputs of FMI 2.0 and FMI 3.0 are equal to the bit.
+
+    Later, hard disks on a base at rest collapse.
+    """
     results = []
     for version in ("2", "3"):
         fmu = tmp_path / f"{scene}{version}.fmu"

@@ -19,9 +19,6 @@ use super::{initial_packing, settled};
 /// Engine of the packing over a base W.
 pub type HardDisks<W> = EventDriven<HardLaw, Walls<W>, Open>;
 
-/// Gap of neighbours at the start over the sum of their radii: hard disks that touch have no next impact.
-pub const START_GAP: f64 = 1e-3;
-
 /// Height of the cells over the width of the box; disks above belong to the topmost.
 const REGION_HEIGHT: f64 = 3.0;
 

@@ -9,10 +9,11 @@ use crate::scene::disks_on_base::{
 use crate::scene::info::GRAVITY;
 use crate::scene::{Row, Unit, work_limit};
 
-use super::settled::SETTLED;
-
 /// Names of the three radii that share the disks equally.
 pub const RADII: [&str; 3] = ["disk.radius_small", "disk.radius_medium", "disk.radius_large"];
+
+/// Name of the parameter that asks for a settled packing.
+pub const SETTLED: &str = "initial.settled";
 
 /// Name of the parameter that displaces the disks at the start.
 pub const PERTURBATION: &str = "initial.perturbation";

@@ -16,11 +16,8 @@ use crate::engine::dem::{FixedGrid, SoftDiskSetup, TimeStepLimits};
 use crate::geometry::{Disk, Wall};
 use crate::scene::{Error, Result, Row, Values, Warning};
 
-use super::hard::START_GAP;
 use super::initial_packing;
-
-/// Parameter that asks for it.
-pub const SETTLED: &str = "initial.settled";
+use super::rows::SETTLED;
 
 /// Time steps between two looks at the kinetic energy.
 const STEPS_OF_A_LOOK: f64 = 10.0;
@@ -63,6 +60,9 @@ pub fn soft<N: NormalForce>(disks: Vec<Disk>, normal: N, values: &Values) -> Res
     let masses = initial_packing::masses(&disks, values);
     relaxed(disks, masses, normal, AT_REST, values)
 }
+
+/// Gap of neighbours at the start over the sum of their radii: hard disks that touch have no next impact.
+const START_GAP: f64 = 1e-3;
 
 /// Gap of neighbours of hard disks over the sum of their radii in the packing that [`hard`] settles.
 const WIDER_GAP: f64 = 3.0 * START_GAP;

@@ -424,3 +424,16 @@ fn inputs_that_are_no_number_for_one_step_do_little_harm() {
         }
     }
 }
+
+#[test]
+fn contacts_too_soft_to_settle_are_told_in_words() {
+    let mut simulation = Simulation::<PackingOnInput>::prepare(
+        jostle::scene::StructuralParameters::choose(&PackingOnInput::info(), &[("disks", 60)]).unwrap(),
+    );
+    simulation.set("contact.normal_stiffness", 1.0).unwrap();
+    let message = simulation.start(0.0).unwrap_err().to_string();
+    assert!(
+        message.contains("which settles with an overlap of ") && message.contains("Raise contact.normal_stiffness"),
+        "{message}"
+    );
+}

@@ -182,13 +182,12 @@ impl InputHistory {
     fn charge(&mut self, sample: &InputSample) {
         for values in 1..=self.values_given() {
             let newton = Newton::through(self.samples(), values, MOST_COEFFICIENTS);
-            let at = sample.time - newton.origin;
-            let step = at;
+            let step = sample.time - newton.origin;
             let (mut value, mut slope, mut product, mut product_slope) = (0.0, 0.0, 1.0, 0.0);
             for (index, coefficient) in newton.coefficients[..newton.count].iter().enumerate() {
                 value += coefficient * product;
                 slope += coefficient * product_slope;
-                let distance = at - newton.nodes[index];
+                let distance = step - newton.nodes[index];
                 (product, product_slope) = (product * distance, product_slope * distance + product);
                 if (index + 1) % values != 0 {
                     continue;
@@ -266,18 +265,11 @@ impl InputHistory {
         Some(extrapolation)
     }
 
+    /// Of the candidates of the highest degree up to `degree` the one of fewest samples.
     fn highest(&self, degree: usize) -> Option<Candidate> {
         let fits = |candidate: &&Candidate| self.supports(**candidate) && candidate.coefficients() <= degree + 1;
-        let highest = CANDIDATES
-            .iter()
-            .filter(fits)
-            .map(|candidate| candidate.coefficients())
-            .max()?;
-        let found = CANDIDATES
-            .iter()
-            .filter(fits)
-            .find(|candidate| candidate.coefficients() == highest);
-        found.copied()
+        let highest_first = CANDIDATES.iter().rev().filter(fits);
+        highest_first.max_by_key(|candidate| candidate.coefficients()).copied()
     }
 
     /// Whether going on at the rate of the last sample did about as well so far as holding its value.

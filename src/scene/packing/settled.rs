@@ -12,11 +12,12 @@ use crate::contact::{ContactLaws, LinearDashpot, NormalForce, TangentialSpring};
 use crate::drive::FollowsInput;
 use crate::engine::Engine;
 use crate::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
-use crate::engine::dem::{FixedGrid, SoftDiskSetup, TimeStepLimits};
+use crate::engine::dem::{Breakdown, FixedGrid, SoftDiskSetup, TimeStepLimits};
 use crate::geometry::{Disk, Wall};
+use crate::scene::soft_disks::refused_step;
 use crate::scene::{Error, Result, Row, Values, Warning};
 
-use super::initial_packing;
+use super::initial_packing::{self, NAME};
 use super::rows::SETTLED;
 
 /// Time steps between two looks at the kinetic energy.
@@ -78,12 +79,15 @@ pub fn gap_of_hard_disks(values: &Values) -> f64 {
 /// # Errors
 /// As [`soft`].
 pub fn hard(disks: Vec<Disk>, values: &Values) -> Result<Settled> {
+    if !is_wanted(values) {
+        return Ok(Settled { disks, warning: None });
+    }
     // Where hard disks rest does not depend on their density.
     let masses: Vec<f64> = disks.iter().map(|disk| disk.radius * disk.radius).collect();
     let smallest = disks.iter().map(|disk| disk.radius).fold(f64::INFINITY, f64::min);
     let lightest = masses.iter().copied().fold(f64::INFINITY, f64::min);
     let weight = values.real("gravity") * masses.iter().sum::<f64>();
-    if !is_wanted(values) || weight == 0.0 {
+    if weight == 0.0 {
         return Ok(Settled { disks, warning: None });
     }
     // No overlap is larger than the gap if a contact can carry all.
@@ -165,9 +169,7 @@ fn relaxed<N: NormalForce>(
     let (mut steps, mut before, mut is_at_rest) = (0.0, 0.0, false);
     while !is_at_rest && steps < most {
         steps += STEPS_OF_A_LOOK;
-        engine
-            .advance_to(steps * time_step)
-            .map_err(|breakdown| too_soft(&breakdown))?;
+        engine.advance_to(steps * time_step).map_err(too_soft)?;
         let now = engine.kinetic_energy();
         if now < before {
             is_at_rest = before < at_rest * fall;
@@ -184,8 +186,8 @@ fn relaxed<N: NormalForce>(
     let warning = (!is_at_rest).then(|| Warning {
         topic: SETTLED,
         text: format!(
-            "{SETTLED} = 1: the packing was still moving after {steps} time steps of settling, with a kinetic energy of {before:e} J. \
-             It starts from there; run it for a while on a base at rest."
+            "{SETTLED} = 1: the packing was still moving after {steps} time steps of settling. It starts from there; run it for a while \
+             on a base at rest."
         ),
     });
     Ok(Settled {
@@ -194,11 +196,15 @@ fn relaxed<N: NormalForce>(
     })
 }
 
-fn too_soft(breakdown: &impl std::fmt::Debug) -> Error {
+fn too_soft(breakdown: Breakdown) -> Error {
+    let why = match refused_step(NAME, breakdown) {
+        Error::Step { what, .. } => what,
+        other => other.to_string(),
+    };
     Error::parameter(
         SETTLED,
         1,
-        format!("0 for contacts that do not carry the packing ({breakdown:?})"),
+        format!("0 for contacts that do not carry the packing, which settles with {why}"),
         "Raise contact.normal_stiffness, or set it to 0.",
     )
 }

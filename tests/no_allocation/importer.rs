@@ -20,8 +20,12 @@ pub struct Importer {
     names: Vec<String>,
     inputs: Vec<u32>,
     given: Vec<f64>,
-    derivatives: Vec<u32>,
+    /// Inputs that have a derivative among the inputs, for FMI 2.0.
+    integrals: Vec<u32>,
     orders: Vec<i32>,
+    /// Where in `given` the derivative of each of them is, and what it is.
+    places: Vec<usize>,
+    rates: Vec<f64>,
     reals: Vec<u32>,
     read: Vec<f64>,
     counts: Vec<u32>,
@@ -73,15 +77,28 @@ impl Importer {
         let options = references(&variables, |variable| {
             output(variable) && !real(variable) && !integer(variable)
         });
-        let names = variables.iter().filter(|variable| input(variable));
-        let derivatives = references(&variables, |variable| input(variable) && variable.derivative.is_some());
+        let names: Vec<String> = variables
+            .iter()
+            .filter(|variable| input(variable))
+            .map(|variable| variable.name.to_string())
+            .collect();
+        let integrals = references(&variables, |variable| input(variable) && variable.derivative.is_some());
+        let derivatives = variables
+            .iter()
+            .filter(|variable| input(variable))
+            .filter_map(|variable| variable.derivative.as_ref());
+        let places: Vec<usize> = derivatives
+            .map(|derivative| names.iter().position(|name| name == derivative).unwrap())
+            .collect();
         let importer = Self {
             entry,
-            names: names.map(|variable| variable.name.to_string()).collect(),
+            names,
             given: vec![0.0; inputs.len()],
             inputs,
-            orders: vec![1; derivatives.len()],
-            derivatives,
+            orders: vec![1; integrals.len()],
+            integrals,
+            rates: vec![0.0; places.len()],
+            places,
             read: vec![0.0; reals.len()],
             reals,
             integers: vec![0; counts.len()],
@@ -112,10 +129,10 @@ impl Importer {
         assert_eq!(unsafe { values::set_real(self.entry, inputs) }, Status::Ok);
         if self.entry.version == Version::Two {
             // The velocity of a displacement, which was set before: the two are the same variable.
-            let rates = arrays(
-                &self.derivatives,
-                self.given[self.given.len() - self.derivatives.len()..].as_ptr(),
-            );
+            for (rate, place) in self.rates.iter_mut().zip(&self.places) {
+                *rate = self.given[*place];
+            }
+            let rates = arrays(&self.integrals, self.rates.as_ptr());
             let set = unsafe { values::set_input_derivatives(self.entry, self.orders.as_ptr(), rates) };
             assert_eq!(set, Status::Ok);
         }

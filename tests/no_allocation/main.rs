@@ -17,7 +17,7 @@ use importer::Importer;
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// A base, or a support, that is shaken at twice gravity with 80 Hz, or a torque.
+/// A base, or a support, that is shaken at twice gravity with 80 Hz, a torque, or the mark of an average.
 fn input(name: &str, time: f64) -> f64 {
     let omega = TAU * 80.0;
     let (sine, cosine) = (omega * time).sin_cos();
@@ -25,10 +25,12 @@ fn input(name: &str, time: f64) -> f64 {
     match name {
         "base.displacement" => amplitude * sine,
         "base.velocity" => amplitude * omega * cosine,
-        "base.acceleration" => -amplitude * omega * omega * sine,
+        "base.acceleration_input" => -amplitude * omega * omega * sine,
         "torque" => 1e-3 * sine,
         "torque.rate" => 1e-3 * omega * cosine,
-        _ => 0.0,
+        // A new average four times a second.
+        "measure.mark" => (4.0 * time).floor(),
+        _ => panic!("the test knows no motion of the input {name}"),
     }
 }
 

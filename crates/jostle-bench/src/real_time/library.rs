@@ -59,6 +59,10 @@ impl Instance {
         let make: Instantiate = symbol(&library, c"fmi3InstantiateCoSimulation")?;
         let enter: Enter = symbol(&library, c"fmi3EnterInitializationMode")?;
         let leave: Plain = symbol(&library, c"fmi3ExitInitializationMode")?;
+        let set: Set = symbol(&library, c"fmi3SetFloat64")?;
+        let get: Get = symbol(&library, c"fmi3GetFloat64")?;
+        let step: DoStep = symbol(&library, c"fmi3DoStep")?;
+        let free: Free = symbol(&library, c"fmi3FreeInstance")?;
         let log = Box::new(Mutex::new(String::new()));
         let environment = std::ptr::from_ref(&*log).cast_mut().cast();
         let (name, token) = (c"real-time", CString::new(token)?);
@@ -81,20 +85,20 @@ impl Instance {
         };
         let instance = Self {
             pointer,
-            set: symbol(&library, c"fmi3SetFloat64")?,
-            get: symbol(&library, c"fmi3GetFloat64")?,
-            step: symbol(&library, c"fmi3DoStep")?,
-            free: symbol(&library, c"fmi3FreeInstance")?,
+            set,
+            get,
+            step,
+            free,
             log,
             _library: library,
         };
         if pointer.is_null() {
             bail!("{}", instance.message());
         }
-        // SAFETY: the signatures are those of the standard; the instance lives.
-        let (entered, left) = unsafe { (enter(pointer, false, 0.0, 0.0, false, 0.0), leave(pointer)) };
-        instance.check(entered)?;
-        instance.check(left)?;
+        // SAFETY: the signature is that of the standard; the instance lives.
+        instance.check(unsafe { enter(pointer, false, 0.0, 0.0, false, 0.0) })?;
+        // SAFETY: as above.
+        instance.check(unsafe { leave(pointer) })?;
         Ok(instance)
     }
 

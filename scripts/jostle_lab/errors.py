@@ -3,9 +3,12 @@
 import errno
 import math
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from pathlib import Path
+from typing import TypeVar
+
+Value = TypeVar("Value")
 
 
 class LabError(Exception):
@@ -19,12 +22,18 @@ def require(name: str, value: float, low: float, high: float, remedy: str) -> fl
     raise LabError(f"{name} = {value:g} is outside [{low:g}, {high:g}]. {remedy}")
 
 
+def repeated(values: Sequence[Value]) -> list[Value]:
+    """Values of which an equal one comes before, in their order."""
+    return [value for number, value in enumerate(values) if value in values[:number]]
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """` Did you mean X?` for the known name that is most like a wrong one; a part between dots counts as the whole."""
-    whole = {candidate: candidate for candidate in known}
+    whole = list(known)
     parts = {part: candidate for candidate in reversed(whole) for part in candidate.split(".")}
-    near = get_close_matches(name, whole, n=1, cutoff=0.7) or get_close_matches(name, parts, n=1, cutoff=0.8)
-    return f" Did you mean {parts.get(near[0], near[0]) if near[0] not in whole else near[0]}?" if near else ""
+    near = get_close_matches(name, whole, n=1, cutoff=0.7)
+    near = near or [parts[part] for part in get_close_matches(name, parts, n=1, cutoff=0.8)]
+    return f" Did you mean {near[0]}?" if near else ""
 
 
 REMEDIES = {

@@ -5,7 +5,10 @@ from typing import Annotated
 
 import typer
 
-from jostle_lab.errors import LabError
+from jostle_lab.errors import LabError, repeated
+
+LARGEST_SEED = 2**31 - 1
+"""What an integer of FMI 2.0 holds."""
 
 ProgramOption = Annotated[
     Path | None, typer.Option(help="The native command line. Without it: JOSTLE_PROGRAM, beside Python, or PATH.")
@@ -38,8 +41,7 @@ def parameters(assignments: list[str] | None, seed: str = "") -> tuple[tuple[str
 
 def once(option: str, names: list[str]) -> list[str]:
     """The names; raises LabError if one is there twice, since only one of its values would count."""
-    twice = [name for number, name in enumerate(names) if name in names[:number]]
-    if twice:
+    if twice := repeated(names):
         raise LabError(f"{option} {twice[0]} is given more than once. Leave one of them out.")
     return names
 

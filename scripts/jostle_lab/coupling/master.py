@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from jostle_lab.coupling.exchange import LANDING_DEGREE, Exchange
 from jostle_lab.errors import LabError
 from jostle_lab.fmu.grains import Grains
+from jostle_lab.fmu.names import EXTRAPOLATION_DEGREE
 from jostle_lab.loudspeaker.model import Loudspeaker
 
 
@@ -43,18 +44,24 @@ class Motion(NamedTuple):
         return Motion(x + time * v + 0.5 * time**2 * a, v + time * a, a)
 
 
+def check_landing(exchange: Exchange, grains: Grains) -> None:
+    """Raise LabError for a planned or an iterated exchange with grains that extrapolate with another degree."""
+    if exchange.lands and grains.extrapolation_degree != LANDING_DEGREE:
+        raise LabError(
+            f"The {exchange.value} exchange needs grains with {EXTRAPOLATION_DEGREE} = {LANDING_DEGREE}, not "
+            f"{grains.extrapolation_degree}. Leave out --set {EXTRAPOLATION_DEGREE}, in Python make the grains with "
+            f"Exchange.parameters; or take the {Exchange.GRAINS_FIRST.value} exchange."
+        )
+
+
 class Coupling:
     """A loudspeaker and grains that advance together in steps of `loudspeaker.step_size`.
 
-    Raises LabError for a planned or an iterated exchange with grains that extrapolate with another degree.
+    Raises LabError for grains that `check_landing` refuses.
     """
 
     def __init__(self, loudspeaker: Loudspeaker, grains: Grains, exchange: Exchange = Exchange.GRAINS_FIRST) -> None:
-        if exchange.lands and grains.extrapolation_degree != LANDING_DEGREE:
-            raise LabError(
-                f"The {exchange.value} exchange needs grains with base.extrapolation_degree = {LANDING_DEGREE}, not "
-                f"{grains.extrapolation_degree}: make them with Exchange.parameters."
-            )
+        check_landing(exchange, grains)
         self.loudspeaker = loudspeaker
         self.grains = grains
         self.exchange = exchange

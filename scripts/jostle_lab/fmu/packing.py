@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from jostle_lab.errors import LabError
 from jostle_lab.fmu.instance import FmuInstance
+from jostle_lab.fmu.names import EXTRAPOLATION_DEGREE
 
 NOTHING: Mapping[str, float] = MappingProxyType({})
-DEGREE = "base.extrapolation_degree"
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class FmuGrains(FmuInstance):
         self._positions = self.group([f"disk.{axis}[{i}]" for i in disks for axis in "xy"])
         self.radii = self.read_group(self.group([f"disk.radius[{i}]" for i in disks])).copy()
         self.gravity = self.read("gravity")
-        (self.extrapolation_degree,) = self.read_integers([DEGREE])
+        (self.extrapolation_degree,) = self.read_integers([EXTRAPOLATION_DEGREE])
         self.box_width, self.weight = self._width_and_weight()
         self._start = self._step = 0.0
         self._steps = 0

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from jostle_lab.errors import LabError, require
+from jostle_lab.errors import LabError, repeated, require
 
 
 @dataclass(frozen=True)
@@ -46,8 +46,7 @@ def scaled_down(amplitudes: tuple[float, ...], seconds_per_amplitude: int) -> Pr
         raise LabError("No amplitudes. Give decreasing fractions of the full drive, such as 1,0.5,0.2.")
     for amplitude in amplitudes:
         require("amplitude", amplitude, 1e-3, 1.0, "Amplitudes are fractions of the full drive.")
-    twice = [amplitude for number, amplitude in enumerate(amplitudes) if amplitude in amplitudes[:number]]
-    if twice:
+    if twice := repeated(amplitudes):
         raise LabError(f"amplitude {twice[0]:g} is given twice, and tables are found again by it. Give each once.")
     relaxation = seconds_per_amplitude // 4
     recording = seconds_per_amplitude - relaxation

@@ -121,6 +121,15 @@ def test_seeds_are_what_an_integer_of_fmi_2_holds() -> None:
     assert run("jostle_lab", "demo", "--first-seed", "2147483648").returncode == 2
 
 
+def test_the_demo_refuses_grains_that_cannot_land_before_it_begins(fmu3: Path, tmp_path: Path) -> None:
+    words = ["--exchange", "planned", "--set", "base.extrapolation_degree=1", "--results", tmp_path / "results"]
+    done = run("jostle_lab", "demo", "--fmu", fmu3, "--no-progress", *words)
+    assert (done.returncode, done.stdout) == (2, ""), done.stderr
+    assert done.stderr.startswith("error: The planned exchange needs grains with base.extrapolation_degree = 2, not 1.")
+    assert "Leave out --set base.extrapolation_degree" in done.stderr
+    assert not (tmp_path / "results").exists()
+
+
 def test_the_torque_demo_asks_for_both_versions_of_fmi(tmp_path: Path) -> None:
     three, broken = tmp_path / "three.fmu", tmp_path / "broken.fmu"
     subprocess.run([PROGRAM, "fmu", "three_disk", "--fmi", "3", "--out", three], check=True)

@@ -1,6 +1,6 @@
 """`jostle-lab demo`, `draw`, `exchanges`, `held-loop`, `step-control`. Each command imports what it needs."""
 
-from contextlib import suppress
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Annotated
 
@@ -13,8 +13,6 @@ from jostle_lab.protocol import intervals
 
 AMPLITUDES = "1,0.7,0.5,0.35,0.25,0.18,0.12,0.08,0.05"
 FIRST_PICTURE = "packing.png"
-LARGEST_SEED = 2**31 - 1
-"""What an integer of FMI 2.0 holds."""
 
 
 def _amplitudes(text: str) -> tuple[float, ...]:
@@ -26,9 +24,9 @@ def _amplitudes(text: str) -> tuple[float, ...]:
 
 def _seeds(first: int, count: int) -> tuple[int, ...]:
     last = first + count - 1
-    if last > LARGEST_SEED:
+    if last > options.LARGEST_SEED:
         raise LabError(
-            f"--first-seed = {first} gives {count} packings seeds up to {last}, the largest is {LARGEST_SEED}."
+            f"--first-seed = {first} gives {count} packings seeds up to {last}, the largest is {options.LARGEST_SEED}."
         )
     return tuple(range(first, first + count))
 
@@ -46,7 +44,7 @@ def demo(
     amplitudes: Annotated[str, typer.Option(help="Fractions of the full drive, separated by commas.")] = AMPLITUDES,
     packings: Annotated[int | None, typer.Option(min=1, max=1000, help="Number of packings; 2, or 25 if full.")] = None,
     first_seed: Annotated[
-        int, typer.Option(min=0, max=LARGEST_SEED, help="Seed of the first packing; the others follow.")
+        int, typer.Option(min=0, max=options.LARGEST_SEED, help="Seed of the first packing; the others follow.")
     ] = 1,
     processes: Annotated[int, typer.Option(min=1, max=256, help="Packings shaken at the same time.")] = 2,
     steps_per_second: Annotated[
@@ -65,6 +63,7 @@ def demo(
     progress: options.ProgressOption = True,
 ) -> None:
     """Shake packings with decreasing amplitude; write CSV files, pictures and a page of numbers."""
+    from jostle_lab.coupling.master import check_landing
     from jostle_lab.fmu.instance import fingerprint
     from jostle_lab.fmu.packing import FmuFactory
     from jostle_lab.protocol.experiment import Setup
@@ -78,7 +77,9 @@ def demo(
     setup = Setup(schedule, steps_per_second, exchange, full_drive_gamma=full_drive_gamma, accelerometer=accelerometer)
     seeds = _seeds(first_seed, packings if packings is not None else (25 if full else 2))
     factory = FmuFactory(str(path), chosen)
-    factory(first_seed).close()  # a wrong file or parameter is reported here, before any process starts
+    # A wrong file or parameter is reported here, before any process starts.
+    with closing(factory(first_seed, exchange.parameters)) as grains:
+        check_landing(exchange, grains)
     labels = (("FMU binary", fingerprint(path)), *((name, f"{value:g}") for name, value in chosen))
     plan = Plan(results, seeds, setup, processes, progress, labels)
     (results / FIRST_PICTURE).unlink(missing_ok=True)
@@ -138,9 +139,7 @@ def held_loop(
 
 def step_control(
     fmu: options.FmuOption = None,
-    exchange: Annotated[Exchange, typer.Option(help="Order of the exchange; jacobi is not made for it.")] = (
-        Exchange.GRAINS_FIRST
-    ),
+    exchange: Annotated[Exchange, typer.Option(help="Order of the exchange.")] = Exchange.GRAINS_FIRST,
     parameters: options.SetOption = None,
 ) -> None:
     """Compare controlled communication steps with fixed ones: error against cost of a burst of shaking."""

@@ -17,7 +17,7 @@ def ratchet_demo(
     high: Annotated[float, typer.Option(help="Last frequency [Hz].")] = 46.0,
     steps: Annotated[int, typer.Option(min=2, max=200, help="Frequencies, ends included.")] = 16,
     seconds: Annotated[float, typer.Option(help="Simulated seconds at each frequency, settling apart.")] = 12.0,
-    seed: Annotated[int, typer.Option(min=0, max=2**31 - 1, help="Seed of the disks.")] = 1,
+    seed: Annotated[int, typer.Option(min=0, max=options.LARGEST_SEED, help="Seed of the disks.")] = 1,
     progress: options.ProgressOption = True,
 ) -> None:
     """Hold Gamma of a shaken ratchet by feedback, sweep the frequency, and watch the flow reverse."""

@@ -99,6 +99,7 @@ def test_approaches_the_solution_of_the_joined_equations(exchange):
     print(exchange.value, [f"{e:.2e}" for e in errors])
     assert errors[2] < errors[1] < errors[0]
     assert errors[2] < 2e-3
+    assert np.log(errors[1] / errors[2]) / np.log(4.0) == pytest.approx(exchange.order, abs=0.3)
 
 
 @pytest.mark.parametrize("exchange", list(Exchange))

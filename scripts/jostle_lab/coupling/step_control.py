@@ -53,7 +53,7 @@ class StepControl:
     first: float = 1e-4
     """Where to begin [s]."""
     order: int = 2
-    """Order p of the exchange: 2 for grains-first and iterated, 1 for jacobi."""
+    """Order p of the exchange, `Exchange.order`."""
     safety: float = 0.9
     """What of the step that seems right is taken."""
     shrink: float = 0.2
@@ -69,14 +69,15 @@ class StepControl:
     steps: list[float] = field(default_factory=list, init=False)
     """Those kept [s]."""
     refusal: str = field(default="", init=False)
-    """What a model said when it last refused a step."""
+    """What a model said if it refused the step tried last, else nothing."""
 
     def __post_init__(self) -> None:
         """Refuse what cannot work."""
         require("tolerance per second", self.tolerance, 1e-300, 1e300, "Choose, say, 1e-3 of the largest value.")
+        require("greatest step [s]", self.greatest, 1e-9, 1e300, "Choose, say, a tenth of the period of the drive.")
         require("least step [s]", self.least, 1e-9, self.greatest, "Choose one between 1e-7 s and the greatest.")
         require("first step [s]", self.first, self.least, self.greatest, "Choose one between least and greatest.")
-        require("order of the exchange", self.order, 1, 10, "1 for jacobi, 2 for grains-first and iterated.")
+        require("order of the exchange", self.order, 1, 10, "Take that of the exchange: Exchange.order.")
         self.next = self.first
         """Step [s] to try next."""
         self._error = 1.0  # of the last step kept, over the tolerance
@@ -122,8 +123,10 @@ def advance_controlled(
     """Go from `start` to `end` [s] by steps whose errors stay within the tolerance; `watch` is told every time reached.
 
     `control` may be used again for what follows: it goes on with the step that has proved right. Raises LabError when a
-    model cannot save its state, and when the step would fall below the least.
+    model cannot save its state, when the step would fall below the least, and for an `end` before `start`.
     """
+    require("start [s]", start, -1e300, 1e300, "Give the time at which the models are.")
+    require("end [s]", end, start, 1e300, "Give a time that is not before the start.")
     time = start
     while end > time:
         left = end - time
@@ -152,7 +155,8 @@ def _keep(control: StepControl, step: float, error: float) -> None:
 
 
 def _try(system: Steppable, saved: Any, step: float, control: StepControl) -> float:
-    """Two half steps; their error over the tolerance, infinite where a model refuses the whole step."""
+    """Two half steps; their error over the tolerance, infinite where a model refuses any of the three."""
+    control.refusal = ""
     try:
         system.advance_by(step)
         whole = system.observed().copy()

@@ -78,6 +78,23 @@ def test_what_a_model_said_when_it_refused_is_told():
         advance_controlled(Refusing(), 0.0, 1.0, StepControl(1.0))
 
 
+def test_a_refusal_of_before_is_not_told_with_another_error():
+    class RefusingAtFirst(Kicked):
+        refused = False
+
+        def advance_by(self, step):
+            if not self.refused:
+                self.refused = True
+                raise LabError("the base moves too far")
+            super().advance_by(step)
+
+    system, control = RefusingAtFirst(), StepControl(1e-6, least=1e-2, greatest=0.05, first=0.05)
+    with pytest.raises(LabError, match="times the error allowed") as told:
+        advance_controlled(system, 0.0, 1.0, control)
+    assert system.refused and control.rejected > 1
+    assert "moves too far" not in str(told.value)
+
+
 def test_a_model_without_functions_for_its_state_is_an_error():
     class Stateless(Kicked):
         def save(self):
@@ -87,10 +104,30 @@ def test_a_model_without_functions_for_its_state_is_an_error():
         advance_controlled(Stateless(), 0.0, 1.0, StepControl(1.0))
 
 
-@pytest.mark.parametrize(("option", "value"), [("tolerance", 0.0), ("least", 1.0), ("first", 1.0), ("order", 0)])
-def test_controls_that_cannot_work_are_refused(option, value):
-    with pytest.raises(LabError):
+@pytest.mark.parametrize(
+    ("option", "value", "said"),
+    [
+        ("tolerance", 0.0, r"tolerance per second = 0 is outside"),
+        ("least", 1.0, r"least step \[s\] = 1 is outside \[1e-09, 0\.005\]"),
+        ("greatest", math.inf, r"greatest step \[s\] = inf is outside"),
+        ("greatest", math.nan, r"greatest step \[s\] = nan is outside"),
+        ("greatest", -1.0, r"greatest step \[s\] = -1 is outside"),
+        ("first", 1.0, r"first step \[s\] = 1 is outside \[1e-06, 0\.005\]"),
+        ("order", 0, r"order of the exchange = 0 is outside \[1, 10\]"),
+    ],
+)
+def test_controls_that_cannot_work_are_refused(option, value, said):
+    with pytest.raises(LabError, match=said):
         StepControl(**{"tolerance": 1e-3, option: value})
+
+
+@pytest.mark.parametrize("end", [0.5, -math.inf, math.inf, math.nan])
+def test_an_end_before_the_start_or_at_no_time_is_refused(end):
+    system = Kicked()
+    with pytest.raises(LabError, match=r"end \[s\] = \S+ is outside \[1, "):
+        advance_controlled(system, 1.0, end, StepControl(1.0))
+    advance_controlled(system, 1.0, 1.0, StepControl(1.0))
+    assert system.time == 0.0
 
 
 @pytest.mark.parametrize("exchange", [Exchange.GRAINS_FIRST, Exchange.PLANNED, Exchange.ITERATED])

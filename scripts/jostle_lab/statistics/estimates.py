@@ -39,6 +39,11 @@ class Estimate:
         return f"{round(self.mean / unit) * unit:.{shown}f} +- {round(self.error / unit) * unit:.{shown}f}"
 
 
+def relative_error(found: Numbers, exact: Numbers) -> float:
+    """Rms of the difference over the rms of `exact`."""
+    return float(np.sqrt(np.mean((found - exact) ** 2) / np.mean(exact**2)))
+
+
 def pooled(means: Sequence[float], errors: Sequence[float]) -> Estimate:
     """Mean of independent runs of equal length, each with its own standard error."""
     return Estimate(float(np.mean(means)), math.sqrt(float(np.sum(np.square(errors)))) / len(errors))

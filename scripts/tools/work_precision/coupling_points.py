@@ -22,7 +22,9 @@ from jostle_lab.coupling.exchange import Exchange
 from jostle_lab.coupling.master import Coupling
 from jostle_lab.errors import LabError
 from jostle_lab.fmu.grains import Grains, GrainsFactory
+from jostle_lab.fmu.names import EXTRAPOLATION_DEGREE
 from jostle_lab.loudspeaker.model import Loudspeaker
+from jostle_lab.statistics.estimates import relative_error
 from tools.work_precision import points
 from tools.work_precision.points import Work, trouble
 
@@ -122,8 +124,7 @@ def works(factory: GrainsFactory) -> list[Work]:
             path, seconds = _run(factory, wiring, exchange, rate)
             every = SAMPLES // len(path)
             exact = exact[every - 1 :: every]
-            error = float(np.sqrt(np.mean((path - exact) ** 2) / np.mean(exact**2)))
-            return {QUANTITY: error}, seconds, SECONDS * rate
+            return {QUANTITY: relative_error(path, exact)}, seconds, SECONDS * rate
 
         return run
 
@@ -148,7 +149,7 @@ def measure(factory: GrainsFactory, rounds: int) -> list[dict[str, str]]:
 
 def _run(factory: GrainsFactory, wiring: Wiring, exchange: Exchange, rate: int) -> tuple[Numbers, float]:
     """Displacement of the base at up to SAMPLES instants, evenly spaced, and CPU seconds, Python included."""
-    grains = factory(1, {"initial.settled": 0, "base.extrapolation_degree": wiring.degree})
+    grains = factory(1, {"initial.settled": 0, EXTRAPOLATION_DEGREE: wiring.degree})
     try:
         loudspeaker = Loudspeaker(1.0 / rate, grains_weight=grains.weight)
         loudspeaker.voltage_amplitude = loudspeaker.voltage_for_acceleration(GAMMA * grains.gravity)

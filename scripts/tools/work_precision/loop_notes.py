@@ -28,7 +28,7 @@ def notes(factory: GrainsFactory) -> list[dict[str, str]]:
     burst = (
         "Controlled steps beside fixed ones (`python -m jostle_lab step-control`): a burst of "
         f"{stepping.BURST} s at Gamma {stepping.GAMMA:g}, {stepping.SECONDS} s in all. Each pair of half steps costs "
-        "three steps of the grains.\n\n"
+        "three exchanges.\n\n"
     )
     controlled = [
         f"{exchange.value}:\n\n{stepping.table(factory, exchange)}"

@@ -18,6 +18,7 @@ from jostle_lab.demos.ratchet.controller import GammaController
 from jostle_lab.errors import LabError
 from jostle_lab.fmu.grains import Grains, GrainsFactory
 from jostle_lab.loudspeaker.model import Loudspeaker
+from jostle_lab.statistics.estimates import relative_error
 from jostle_lab.tables import markdown_table
 
 FREQUENCY = 80
@@ -126,8 +127,7 @@ def errors(factory: GrainsFactory, exchange: Exchange, exact: NDArray[np.float64
     found = []
     for rate in ORDER_RATES:
         try:
-            path = displacements(factory, exchange, rate)
-            found.append(float(np.sqrt(np.mean((path - exact) ** 2) / np.mean(exact**2))))
+            found.append(relative_error(displacements(factory, exchange, rate), exact))
         except LabError:
             found.append(math.nan)
     return found
@@ -157,7 +157,7 @@ def table(factory: GrainsFactory, seconds: int = 2) -> str:
         known = [(math.log(rate), math.log(e)) for rate, e in zip(ORDER_RATES, found, strict=True) if e > 0.0]
         order = math.nan
         if len(known) >= 3:
-            order = -float(np.polyfit([work for work, _ in known], [error for _, error in known], 1)[0])
+            order = -float(np.polyfit([rate for rate, _ in known], [error for _, error in known], 1)[0])
         rows.append([exchange.value, *(f"{1e3 * step:.3g}" for step in steps), *(f"{e:.1e}" for e in found)])
         rows[-1].append(f"{order:.2f}")
     trusted = ["longest step at rest [ms]", f"at Gamma {MOVING_GAMMA:g} [ms]"]

@@ -41,4 +41,5 @@ def test_controlled_steps_stand_beside_fixed_ones(monkeypatch):
     rows = cells(stepping.table(make_soft_lump))
     errors = [float(row[1]) for row in rows]
     assert errors[1] < errors[0] and errors[3] < errors[2] < 0.1
+    assert [int(row[2]) for row in rows[:2]] == [80, 320]
     assert all(int(row[2]) == 3 * (int(row[6]) + int(row[7])) for row in rows[2:])

@@ -1,12 +1,17 @@
 """Where a curve changes sign, and how that is said."""
 
+import numpy as np
 import pytest
 
-from jostle_lab.statistics.estimates import Estimate, places, sign_changes, zero_crossings
+from jostle_lab.statistics.estimates import Estimate, places, relative_error, sign_changes, zero_crossings
 
 
 def points(*means: float, error: float = 0.1) -> list[Estimate]:
     return [Estimate(mean, error) for mean in means]
+
+
+def test_relative_error_is_of_the_rms() -> None:
+    assert relative_error(np.array([3.0, 5.0]), np.array([3.0, 4.0])) == pytest.approx(0.2)
 
 
 def test_one_change_is_where_the_line_crosses() -> None:

@@ -48,21 +48,17 @@ a refused step with its message, saving a state, and steps that report events in
 update, which keep a state to go back to. Lists of neighbours have room for three contacts a disk, which equal disks
 cannot exceed. Hard disks with more than 15 neighbours, such as a large one among small ones, make all lists wider once.
 """
-TIMES = ("mean", "percentile_99", "percentile_9999", "worst", "worst_twice", "wall_percentile_9999", "wall_worst")
-HEADER = (
-    "disks",
-    "rate [kHz]",
-    "steps",
-    "mean [us]",
-    "99 %",
-    "99.99 %",
-    "worst",
-    "worst twice",
-    "wall 99.99 %",
-    "wall worst",
-    "factor",
-    "worst / step",
-)
+TIMES = {
+    "mean": "mean [us]",
+    "percentile_99": "99 %",
+    "percentile_9999": "99.99 %",
+    "worst": "worst",
+    "worst_twice": "worst twice",
+    "wall_percentile_9999": "wall 99.99 %",
+    "wall_worst": "wall worst",
+}
+"""Columns of the file and of the page."""
+HEADER = ("disks", "rate [kHz]", "steps", *TIMES.values(), "factor", "worst / step")
 
 
 def page(folder: Path) -> str:
@@ -72,7 +68,8 @@ def page(folder: Path) -> str:
     for scene, engine in dict.fromkeys((row["scene"], row["engine"]) for row in rows):
         chosen = [row for row in rows if (row["scene"], row["engine"]) == (scene, engine)]
         measured = [row for row in chosen if not row["refused"]]
-        parts.append(f"## {scene}, {engine}\n\n{markdown_table(HEADER, [_cells(row) for row in measured])}")
+        parts.append(f"## {scene}, {engine}")
+        parts.append(markdown_table(HEADER, [_cells(row) for row in measured]) if measured else "")
         parts += [_refusals([row for row in chosen if row["refused"]])]
     parts += [_others(rows), LONGEST.rstrip(), ALLOCATIONS.rstrip()]
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -101,6 +98,8 @@ def _refusals(refused: list[Row]) -> str:
 
 def _others(rows: list[Row]) -> str:
     measured = [row for row in rows if not row["refused"]]
+    if not measured:
+        return ""
     exchange = sorted(float(row["set_and_get"]) for row in measured)
     faults = sum(int(row["page_faults"]) for row in measured)
     steps = 2 * sum(int(row["steps"]) for row in measured)

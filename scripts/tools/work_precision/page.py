@@ -282,7 +282,7 @@ def _section(chosen: list[Diagram], pictures: str) -> str:
 def _steps(diagram: Diagram) -> str:
     return step_lengths.section(
         [
-            step_lengths.Curve(method, order(points), [(point.setting, point.error) for point in points])
+            step_lengths.Curve(method, order(points), [(point.setting, max(point.error, FLOOR)) for point in points])
             for method, points in diagram.curves.items()
         ]
     )

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from jostle_lab.errors import LabError
+from jostle_lab.tables import read_text_rows, write_table
 from tools import base_on_inputs, real_time_page, stability_page
 from tools.paths import (
     BASE_ON_INPUTS,
@@ -22,7 +23,17 @@ from tools.paths import (
 )
 from tools.release import page as binaries_page
 from tools.work_precision import step_lengths
-from tools.work_precision.page import Point, diagrams, draw_all, order, page, time_at
+from tools.work_precision.page import (
+    COMMUNICATION_STEP,
+    Diagram,
+    Point,
+    _steps,
+    diagrams,
+    draw_all,
+    order,
+    page,
+    time_at,
+)
 
 
 def curve(errors: list[float], times: list[float]) -> list[Point]:
@@ -91,6 +102,22 @@ def test_longest_step_for_an_error_lies_on_the_curve() -> None:
     assert "| second | 2.00 | 1.00e-02 or more |" in step_lengths.section(
         [step_lengths.Curve("second", 2.0, [(1e-2, 1e-3)])]
     )
+
+
+def test_steps_of_a_curve_with_an_error_of_zero_are_found() -> None:
+    words = [COMMUNICATION_STEP, "", ""]
+    curves = {"exact": [Point(1e-3, 0.0, 0.0, 1.0, 1.0), Point(1e-1, 1.0, 0.0, 1.0, 1.0)]}
+    assert "| exact |  | 5.62e-02 |" in _steps(Diagram("loop", "base", "rms", *words, curves, ()))
+
+
+def test_a_page_of_the_time_of_a_step_without_a_step_has_no_table(tmp_path: Path) -> None:
+    rows = read_text_rows([REAL_TIME / "steps.csv"])
+    only = dict.fromkeys(rows[0], "") | {"scene": "packing", "engine": "event-driven", "disks": "60", "rate": "1000"}
+    write_table(tmp_path / "steps.csv", [only | {"refused": "no such step"}])
+    (tmp_path / "machine.csv").write_bytes((REAL_TIME / "machine.csv").read_bytes())
+    written = real_time_page.page(tmp_path)
+    assert "- 60 disks, 1 kHz: no such step" in written
+    assert "|" not in written and "## The other calls" not in written
 
 
 def test_a_folder_without_data_is_reported(tmp_path: Path) -> None:

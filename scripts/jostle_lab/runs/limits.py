@@ -36,10 +36,10 @@ def _range(text: str) -> Range:
 
 def refuse_what_no_run_takes(program: Path, runs: Sequence[Run]) -> None:
     """Raise LabError for names that the scene does not have and for values and numbers of disks out of their range."""
-    known = parameters(program, runs[0])
     counts = {run.disks for run in runs if run.disks is not None}
-    for count in sorted({min(counts), max(counts)}) if counts else []:
-        parameters(program, runs[0], count)
+    # Names and ranges are the same for any number of disks.
+    for count in sorted({min(counts), max(counts)}) if counts else [None]:
+        known = parameters(program, runs[0], count)
     values: dict[str, set[float]] = {}
     for run in runs:
         for name, value in run.settings:

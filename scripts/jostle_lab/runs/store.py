@@ -12,7 +12,7 @@ from pathlib import Path
 
 import polars as pl
 
-from jostle_lab.errors import LabError
+from jostle_lab.errors import LabError, about, describe_os_error
 from jostle_lab.tables import Row
 
 MANY_PARTS = 50
@@ -91,7 +91,7 @@ class Store:
             table.write_parquet(draft)
         except (OSError, pl.exceptions.PolarsError) as error:
             draft.unlink(missing_ok=True)
-            raise LabError(
-                f"{draft} cannot be written: {error}. Make room, then repeat: what is there stays."
-            ) from None
+            known = about(draft, error if isinstance(error, OSError) else OSError(str(error)))
+            said = describe_os_error(known) if known.errno is not None else f"{draft} cannot be written: {error}."
+            raise LabError(f"{said} Then repeat: what is there stays.") from None
         draft.replace(self.folder / f"part-{number:08d}.parquet")

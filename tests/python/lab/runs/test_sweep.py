@@ -168,6 +168,14 @@ def test_a_full_disk_is_told_and_leaves_the_parts(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["part-00000001.parquet"]
 
 
+def test_another_failure_of_the_file_does_not_ask_for_room(tmp_path: Path) -> None:
+    (tmp_path / DRAFT).symlink_to(tmp_path / "nowhere" / "part")
+    with pytest.raises(LabError, match=r"No such file.*Is the path right\?") as told:
+        Store(tmp_path).append([{"key": "a"}])
+    assert "Make room" not in str(told.value)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_broken_part_is_named(tmp_path: Path) -> None:
     (tmp_path / "part-00000001.parquet").write_bytes(b"not Parquet")
     with pytest.raises(LabError, match="part-00000001"):

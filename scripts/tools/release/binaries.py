@@ -9,7 +9,7 @@ from pathlib import Path
 from fmpy import read_model_description
 
 from jostle_lab.errors import LabError
-from jostle_lab.programs import completed
+from jostle_lab.programs import output_of
 
 OLDEST_GLIBC = (2, 17)
 """What anything that ships may need at most: what zig links against in scripts/release, of the year 2012."""
@@ -69,8 +69,8 @@ class Needs:
 
 def needs(library: Path) -> Needs:
     """Newest symbol version and libraries that `library` asks for."""
-    versions = re.findall(r"GLIBC_([\d.]+)", _run("objdump", "-T", str(library)))
-    asked = re.findall(r"NEEDED\s+(\S+)", _run("objdump", "-p", str(library)))
+    versions = re.findall(r"GLIBC_([\d.]+)", output_of(["objdump", "-T", library]))
+    asked = re.findall(r"NEEDED\s+(\S+)", output_of(["objdump", "-p", library]))
     return Needs(max(tuple(map(int, version.split("."))) for version in versions), frozenset(asked))
 
 
@@ -95,7 +95,7 @@ def unknown(folder: Path) -> list[str]:
 
 def symbols(library: Path) -> list[str]:
     """Names of all functions and objects of an unstripped library, as paths of Rust."""
-    lines = _run("nm", "--demangle", str(library)).splitlines()
+    lines = output_of(["nm", "--demangle", library]).splitlines()
     if len(lines) < 100:
         raise LabError(f"{library} has no symbol table. Build it with CARGO_PROFILE_SHIPPED_STRIP=none")
     return [line[19:] for line in lines]
@@ -131,7 +131,7 @@ def release_rows(folder: Path, native: Path) -> list[Row]:
         files = [out / f"{scene}-{engine}-{drive}.fmi{version}.fmu" for version in (2, 3)]
         for version, file in zip((2, 3), files, strict=True):
             options = ["--engine", engine, "--drive", drive, "--fmi", str(version), "--out", str(file)]
-            _run(str(folder / "jostle"), "fmu", scene, *options)
+            output_of([folder / "jostle", "fmu", scene, *options])
         row = _row(f"{scene}, {engine}, {drive}", folder / f"lib{_identifier(files[1])}.so", native)
         row["fmi2_bytes"], row["fmi3_bytes"] = (str(file.stat().st_size) for file in files)
         row["variables"] = str(len(read_model_description(str(files[1])).modelVariables))
@@ -143,7 +143,7 @@ def release_rows(folder: Path, native: Path) -> list[Row]:
 
 def tools() -> list[Row]:
     """What the libraries are built with."""
-    rust = _run("rustc", "--version").split()[1]
+    rust = output_of(["rustc", "--version"]).split()[1]
     packages = [{"tool": name, "version": metadata.version(name)} for name in ("cargo-zigbuild", "ziglang")]
     return [{"tool": "rustc", "version": rust}, *packages]
 
@@ -168,15 +168,8 @@ def _short(found: Needs) -> str:
 
 
 def _identifier(fmu: Path) -> str:
-    listing = _run("python3", "-m", "zipfile", "-l", str(fmu))
+    listing = output_of(["python3", "-m", "zipfile", "-l", fmu])
     found = re.search(r"binaries/x86_64-linux/(\S+)\.so", listing)
     if not found:
         raise LabError(f"{fmu} holds no library. Bundle it again")
     return found[1]
-
-
-def _run(*arguments: str) -> str:
-    done = completed(arguments)
-    if done.returncode != 0:
-        raise LabError(f"{arguments[0]} failed: {done.stderr.strip()[-400:]}. Check that it is installed")
-    return done.stdout

@@ -48,12 +48,17 @@ def rust_files(folder: Path, kind: str) -> set[str]:
 def test_every_cargo_target_that_a_page_names_exists_in_the_package_that_it_names(kind: str) -> None:
     plural = {"test": "tests", "bench": "benches", "example": "examples"}[kind]
     folders = {"": ROOT, "jostle-c": ROOT / "capi"} | {path.name: path for path in ROOT.glob("crates/*")}
+    found = [
+        (page, command)
+        for page, text in EVERYTHING.items()
+        for command in re.findall(rf"cargo [^`\n|]*--{kind} [^`\n|]*", text)
+    ]
+    assert found
     wrong = []
-    for page, text in EVERYTHING.items():
-        for command in re.findall(rf"cargo [^`\n|]*--{kind} [^`\n|]*", text):
-            package = re.search(r" -p ([a-z-]+)", command)
-            known = rust_files(folders[package[1] if package else ""], plural)
-            wrong += [f"{page}: {command}" for name in re.findall(rf"--{kind} ([a-z_]+)", command) if name not in known]
+    for page, command in found:
+        package = re.search(r" -p ([a-z-]+)", command)
+        known = rust_files(folders[package[1] if package else ""], plural)
+        wrong += [f"{page}: {command}" for name in re.findall(rf"--{kind} ([a-z_]+)", command) if name not in known]
     assert wrong == []
 
 
@@ -66,7 +71,9 @@ def test_every_script_that_a_page_names_exists() -> None:
 def test_every_package_that_a_page_builds_exists() -> None:
     manifests = [*ROOT.glob("crates/*/Cargo.toml"), *ROOT.glob("fmu/*/Cargo.toml"), ROOT / "capi/Cargo.toml"]
     packages = {re.findall(r'^name = "(.+)"', path.read_text(), re.MULTILINE)[0] for path in manifests}
-    assert sorted(named(r"cargo [a-z]+[^`\n|]* -p ([a-z-]+)") - packages) == []
+    built = named(r"cargo [a-z]+[^`\n|]* -p ([a-z-]+)")
+    assert "jostle-cli" in built
+    assert sorted(built - packages) == []
 
 
 @cache

@@ -8,6 +8,7 @@ import pytest
 from fake_grains import make_turning_lump
 
 from jostle_lab.coupling.compare import compare_exchanges
+from jostle_lab.coupling.exchange import Exchange
 from jostle_lab.demos.packing.figures import draw, draw_all
 from jostle_lab.demos.packing.numbers import write_report
 from jostle_lab.errors import LabError
@@ -164,9 +165,4 @@ def test_empty_folder_is_reported(tmp_path):
 def test_comparison_of_exchanges_is_a_table(monkeypatch):
     monkeypatch.setattr("jostle_lab.coupling.compare.STEP_RATES", (800,))
     table = compare_exchanges(make_turning_lump, 1, 0.5)
-    assert [line.split("|")[2].strip() for line in table.splitlines()[2:]] == [
-        "jacobi",
-        "grains-first",
-        "planned",
-        "iterated",
-    ]
+    assert [line.split("|")[2].strip() for line in table.splitlines()[2:]] == [exchange.value for exchange in Exchange]

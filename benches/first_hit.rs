@@ -8,26 +8,11 @@ use std::hint::black_box;
 use cpu_time::ProcessTime;
 use jostle::drive::{Degree, Drive, FirstHit, FollowsInput, Motion};
 use jostle::geometry::Flight;
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::{Rng, SeedableRng};
 
 const FLIGHTS: usize = 200_000;
 const RUNS: usize = 9;
-
-/// Even numbers in [0, 1), the same on every run.
-struct Uniform(u64);
-
-impl Uniform {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
 
 /// Displacement as a polynomial of degree three of the time since `start` over `duration`.
 struct Cubic {
@@ -120,9 +105,15 @@ fn falling_root(mut low: f64, mut high: f64, function: impl Fn(f64) -> (f64, f64
     at
 }
 
+/// Even numbers in [low, high).
+fn between(random: &mut Pcg64, low: f64, high: f64) -> f64 {
+    let even = (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+    low + (high - low) * even
+}
+
 /// Communication steps of a millisecond of a sine of 80 Hz at Gamma = 2, and flights of hard disks over them.
 fn cases() -> Vec<(FollowsInput, Cubic, f64, Flight)> {
-    let mut random = Uniform(7);
+    let mut random = Pcg64::seed_from_u64(7);
     let (amplitude, omega, step) = (7.757e-5, std::f64::consts::TAU * 80.0, 1e-3);
     let sine = |time: f64| Motion {
         displacement: amplitude * (omega * time).sin(),
@@ -131,14 +122,14 @@ fn cases() -> Vec<(FollowsInput, Cubic, f64, Flight)> {
     };
     (0..FLIGHTS)
         .map(|_| {
-            let start = random.between(0.0, 1.0);
+            let start = between(&mut random, 0.0, 1.0);
             let mut base = FollowsInput::starting(start, sine(start), Degree::Automatic);
             base.set_target(start, step, sine(start));
             let cubic = Cubic::between(start, base.motion(start), step, base.motion(start + step));
-            let time = start + random.between(0.0, 0.9) * step;
+            let time = start + between(&mut random, 0.0, 0.9) * step;
             let flight = Flight {
-                gap: random.between(1e-7, 5e-5),
-                velocity: random.between(-0.08, 0.04),
+                gap: between(&mut random, 1e-7, 5e-5),
+                velocity: between(&mut random, -0.08, 0.04),
                 pull: 9.81,
             };
             (base, cubic, time, flight)
@@ -161,7 +152,10 @@ fn main() {
     let cases = cases();
     let capped = |hit: f64| hit.min(1.0);
     let mut taken = [Vec::new(), Vec::new()];
-    let mut hits = 0;
+    let hits = cases
+        .iter()
+        .filter(|(base, _, time, flight)| base.first_hit(*time, flight, 1.0) < 1.0)
+        .count();
     for _ in 0..RUNS {
         taken[0].push(seconds(|| {
             cases
@@ -175,10 +169,6 @@ fn main() {
                 .map(|(base, _, time, flight)| capped(base.first_hit(*time, flight, 1.0)))
                 .sum()
         }));
-        hits = cases
-            .iter()
-            .filter(|(base, _, time, flight)| base.first_hit(*time, flight, 1.0) < 1.0)
-            .count();
     }
     let [cubic, quintic] = taken.map(|taken| 1e9 * median(taken) / FLIGHTS as f64);
     println!("{FLIGHTS} flights, {hits} hits before the end of the path");

@@ -143,7 +143,7 @@ fn inputs_that_contradict_are_warned_of() {
         }
         let of_the_base = |warning: &Warning| warning.topic.starts_with("base.");
         simulation
-            .warnings()
+            .warnings(&[])
             .into_iter()
             .filter(of_the_base)
             .collect::<Vec<_>>()
@@ -210,42 +210,41 @@ fn the_force_now_carries_the_weight_at_rest() {
     check::<LocatedPackingOnInput>();
 }
 
-/// Share of communication points at which nothing presses on the base, and dissipated energy \[J\].
-fn shaken<M: Model>(gamma: f64, samples: Option<u32>, seconds: f64) -> [f64; 2] {
-    let size = gamma / 2.0;
-    // At the usual stiffness the packing resonates near the frequency of the drive.
-    let mut given = vec![
-        ("initial.settled", 1.0),
-        ("contact.normal_stiffness", 1e6),
-        ("contact.normal_damping", 2.0),
-    ];
-    given.push(match samples {
-        Some(_) => ("base.velocity", size * sine(0.0)[1]),
-        None => ("drive.amplitude", size * AMPLITUDE),
-    });
-    let mut packing = simulation_of::<M>(20, &given);
-    let step = 1.0 / (FREQUENCY * f64::from(samples.unwrap_or(25)));
-    let count = (seconds / step).round() as u32;
+/// Share of communication points within a second at which nothing presses on the base of settled disks, at Gamma = 0.8.
+fn open_share<M: Model>(on_inputs: bool) -> f64 {
+    let size = 0.8 / 2.0;
+    let step = 1.0 / (FREQUENCY * 25.0);
+    let motion = |time: f64| sine(time).map(|value| size * value);
+    let mut packing = simulation_of::<M>(
+        20,
+        &[
+            ("initial.settled", 1.0),
+            // At the usual stiffness the packing resonates near the frequency of the drive.
+            ("contact.normal_stiffness", 1e6),
+            ("contact.normal_damping", 2.0),
+            match on_inputs {
+                true => ("base.velocity", motion(0.0)[1]),
+                false => ("drive.amplitude", size * AMPLITUDE),
+            },
+        ],
+    );
+    let count = (1.0 / step).round() as u32;
     let mut open = 0;
     for number in 0..count {
-        if samples.is_some() {
-            give(
-                &mut packing,
-                sine(f64::from(number) * step).map(|value| size * value),
-                2,
-            );
+        if on_inputs {
+            give(&mut packing, motion(f64::from(number) * step), 2);
         }
         packing.advance_to(f64::from(number + 1) * step).unwrap();
         let force = packing.real("base.reaction_force_now").unwrap();
         open += u32::from(force >= 0.0);
     }
-    [f64::from(open) / f64::from(count), packing.real("energy.lost").unwrap()]
+    f64::from(open) / f64::from(count)
 }
 
 #[test]
 fn grains_below_gravity_stay_on_the_base() {
-    let [open_on_sine, _] = shaken::<PackingOnSine>(0.8, None, 1.0);
-    let [open_on_inputs, _] = shaken::<PackingOnInput>(0.8, Some(25), 1.0);
+    let open_on_sine = open_share::<PackingOnSine>(false);
+    let open_on_inputs = open_share::<PackingOnInput>(true);
     assert!(
         open_on_sine == 0.0 && open_on_inputs < 1e-3,
         "{open_on_sine} {open_on_inputs}"
@@ -257,7 +256,7 @@ fn grains_below_gravity_stay_on_the_base() {
 fn hard_disks_settle_without_overlaps() {
     let height = |settled: f64| {
         let packing = simulation_of::<HardPackingOnInput>(60, &[("initial.settled", settled)]);
-        assert_eq!(packing.warnings(), []);
+        assert_eq!(packing.warnings(&[]), []);
         let [x, y, radius] = ["x", "y", "radius"].map(|what| -> Vec<f64> {
             let names = (1..=60).map(|disk| format!("disk.{what}[{disk}]"));
             names.map(|name| packing.real(&name).unwrap()).collect()

@@ -13,18 +13,14 @@ use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine
 use jostle::scene::packing::soft::SoftMethod;
 use jostle::scene::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine, SoftPacking};
 use jostle::scene::{Model, Simulation, StructuralParameters, Value};
+use support::simulation_of;
 
 type Verlet = PredictorCorrector<VelocityVerlet>;
 
 /// A packing of soft disks on a sine of 1 mm at 50 Hz.
 fn shaken<M: SoftMethod>(disks: u32, given: &[(&str, f64)]) -> Simulation<SoftPacking<M, Sine>> {
     let base = [("drive.amplitude", 1e-3), ("drive.frequency", 50.0)];
-    let given: Vec<(&str, Value)> = base
-        .iter()
-        .chain(given)
-        .map(|(name, value)| (*name, (*value).into()))
-        .collect();
-    Simulation::new(&[("disks", disks)], &given).unwrap()
+    simulation_of(disks, &[&base[..], given].concat())
 }
 
 /// Angular velocities of the disks after `end` \[s\] with this time step \[s\].
@@ -100,22 +96,18 @@ fn a_damping_or_frequency_of_negative_zero_is_zero() {
 }
 
 /// Equal radii, as a set of parameters.
-const EQUAL: [(&str, Value); 3] = [
-    ("disk.radius_small", Value::Real(0.019)),
-    ("disk.radius_medium", Value::Real(0.019)),
-    ("disk.radius_large", Value::Real(0.019)),
+const EQUAL: [(&str, f64); 3] = [
+    ("disk.radius_small", 0.019),
+    ("disk.radius_medium", 0.019),
+    ("disk.radius_large", 0.019),
 ];
-
-fn simulation<M: Model>(disks: u32, given: &[(&str, Value)]) -> Simulation<M> {
-    Simulation::new(&[("disks", disks)], given).unwrap()
-}
 
 /// With equal radii the order of the radii is no order; a start that is displaced by chance makes runs that differ.
 fn seeds_decide_with_a_perturbation<M: Model>() {
-    let run = |seed: i64, perturbation: f64| {
-        let own = [("seed", seed.into()), ("initial.perturbation", perturbation.into())];
-        let mut packing = simulation::<M>(20, &[&EQUAL[..], &own].concat());
-        let warnings = packing.warnings().to_vec();
+    let run = |seed: f64, perturbation: f64| {
+        let own = [("seed", seed), ("initial.perturbation", perturbation)];
+        let mut packing = simulation_of::<M>(20, &[&EQUAL[..], &own].concat());
+        let warnings = packing.warnings(&[]).to_vec();
         // Hard disks that come to rest have no headway later on.
         packing.advance_to(0.02).unwrap();
         let outputs = packing
@@ -124,14 +116,14 @@ fn seeds_decide_with_a_perturbation<M: Model>() {
             .split_off(packing.values().as_slice().len());
         (outputs, warnings)
     };
-    let (first, warnings) = run(1, 0.0);
-    assert!(run(2, 0.0).0 == first);
+    let (first, warnings) = run(1.0, 0.0);
+    assert!(run(2.0, 0.0).0 == first);
     assert!(
         warnings.len() == 1 && warnings[0].text.contains("initial.perturbation"),
         "{warnings:?}"
     );
-    let (perturbed, warnings) = run(1, 0.01);
-    assert!(warnings.is_empty() && run(1, 0.01).0 == perturbed && run(2, 0.01).0 != perturbed);
+    let (perturbed, warnings) = run(1.0, 0.01);
+    assert!(warnings.is_empty() && run(1.0, 0.01).0 == perturbed && run(2.0, 0.01).0 != perturbed);
 }
 
 #[test]
@@ -139,11 +131,11 @@ fn a_perturbed_start_makes_seeds_differ_where_radii_are_equal() {
     seeds_decide_with_a_perturbation::<PackingOnInput>();
     seeds_decide_with_a_perturbation::<LocatedPackingOnInput>();
     seeds_decide_with_a_perturbation::<HardPackingOnInput>();
-    let different = simulation::<PackingOnInput>(20, &[]);
-    assert!(different.warnings().is_empty(), "{:?}", different.warnings());
-    let phases = [&EQUAL[..], &[("base.model", 1.into())]].concat();
+    let different = simulation_of::<PackingOnInput>(20, &[]);
+    assert!(different.warnings(&[]).is_empty(), "{:?}", different.warnings(&[]));
+    let phases = [&EQUAL[..], &[("base.model", 1.0)]].concat();
     assert!(
-        simulation::<HardPackingOnSine>(20, &phases).warnings().is_empty(),
+        simulation_of::<HardPackingOnSine>(20, &phases).warnings(&[]).is_empty(),
         "the seed draws phases"
     );
 }
@@ -152,11 +144,8 @@ fn a_perturbed_start_makes_seeds_differ_where_radii_are_equal() {
 #[test]
 fn displaced_disks_have_room() {
     for perturbation in [1e-6, 0.01, 0.5] {
-        let given = [
-            ("initial.perturbation", perturbation.into()),
-            ("initial.settled", 0.into()),
-        ];
-        let packing = simulation::<PackingOnInput>(60, &given);
+        let given = [("initial.perturbation", perturbation), ("initial.settled", 0.0)];
+        let packing = simulation_of::<PackingOnInput>(60, &given);
         assert_eq!(packing.integer("contacts").unwrap(), 0, "{perturbation}");
         let read = |name: &str, disk: usize| packing.real(&format!("disk.{name}[{disk}]")).unwrap();
         for disk in 1..=60 {
@@ -165,19 +154,18 @@ fn displaced_disks_have_room() {
         }
         assert_eq!(packing.real("energy.elastic").unwrap(), 0.0);
     }
-    let none = simulation::<PackingOnInput>(60, &[("initial.perturbation", 0.0.into())]);
-    assert!(none.model().unwrap().state() == simulation::<PackingOnInput>(60, &[]).model().unwrap().state());
+    let none = simulation_of::<PackingOnInput>(60, &[("initial.perturbation", 0.0)]);
+    assert!(none.model().unwrap().state() == simulation_of::<PackingOnInput>(60, &[]).model().unwrap().state());
 }
 
-/// Angle of a disk that leans on a side wall while base and wall rise, and the force on both.
-fn rubbed<M: Model>(motion: &str) -> (f64, f64) {
-    let option = if motion == "fixed" { 1 } else { 2 };
-    let given = [
-        ("wall.motion", Value::Integer(option)),
-        ("box.width", 0.055.into()),
-        ("contact.friction", 0.5.into()),
-    ];
-    let mut packing = simulation::<M>(6, &given);
+/// Options of `wall.motion`.
+const FIXED: f64 = 1.0;
+const WITH_BASE: f64 = 2.0;
+
+/// Energy lost and residual of the balance \[J\] of disks that touch both side walls while the base rises ever faster for 0.2 s.
+fn rubbed<M: Model>(motion: f64) -> (f64, f64) {
+    let given = [("wall.motion", motion), ("box.width", 0.055), ("contact.friction", 0.5)];
+    let mut packing = simulation_of::<M>(6, &given);
     for step in 1..=200 {
         let time = f64::from(step) * 1e-3;
         packing.set("base.displacement", 0.1 * time * time).unwrap();
@@ -192,7 +180,7 @@ fn rubbed<M: Model>(motion: &str) -> (f64, f64) {
 #[test]
 fn side_walls_that_move_with_the_floor_do_not_rub_on_what_moves_with_it() {
     fn compare<M: Model>(name: &str) {
-        let ((fixed, fixed_residual), (moving, residual)) = (rubbed::<M>("fixed"), rubbed::<M>("with_base"));
+        let ((fixed, fixed_residual), (moving, residual)) = (rubbed::<M>(FIXED), rubbed::<M>(WITH_BASE));
         println!("{name}: lost {fixed:e} J at walls that stay, {moving:e} J at walls that move");
         assert!(fixed > 2.0 * moving, "{name}: {fixed:e} {moving:e}");
         let balance = |residual: f64, lost: f64| residual.abs() < 1e-3 * lost;
@@ -215,15 +203,15 @@ fn side_walls_that_move_with_the_floor_do_not_rub_on_what_moves_with_it() {
 
 /// What momentum misses of the disks after half a second on a sine of 4 g, over what gravity gives: change less gravity less the
 /// force on the base as it is reported.
-fn missing_momentum<M: Model + DisksOnBase>(motion: i64) -> f64 {
+fn missing_momentum<M: Model + DisksOnBase>(motion: f64) -> f64 {
     let given = [
-        ("wall.motion", Value::Integer(motion)),
-        ("box.width", 0.055.into()),
-        ("contact.friction", 0.5.into()),
-        ("drive.amplitude", Sine::amplitude_of(4.0, 30.0, 9.8).into()),
-        ("drive.frequency", 30.0.into()),
+        ("wall.motion", motion),
+        ("box.width", 0.055),
+        ("contact.friction", 0.5),
+        ("drive.amplitude", Sine::amplitude_of(4.0, 30.0, 9.8)),
+        ("drive.frequency", 30.0),
     ];
-    let (mut packing, step, steps) = (simulation::<M>(6, &given), 1e-2, 50);
+    let (mut packing, step, steps) = (simulation_of::<M>(6, &given), 1e-2, 50);
     let mut reported = 0.0;
     for count in 1..=steps {
         packing.advance_to(f64::from(count) * step).unwrap();
@@ -246,7 +234,7 @@ fn missing_momentum<M: Model + DisksOnBase>(motion: i64) -> f64 {
 #[test]
 fn the_force_on_the_base_holds_the_friction_of_side_walls_that_move_with_it() {
     fn compare<M: Model + DisksOnBase>(name: &str) {
-        let (fixed, with_base) = (missing_momentum::<M>(1), missing_momentum::<M>(2));
+        let (fixed, with_base) = (missing_momentum::<M>(FIXED), missing_momentum::<M>(WITH_BASE));
         println!("{name}: momentum misses {fixed:e} with walls that stay, {with_base:e} with walls that move");
         assert!(fixed > 1e-4 && with_base < 1e-9, "{name}: {fixed:e} {with_base:e}");
     }
@@ -258,13 +246,9 @@ fn the_force_on_the_base_holds_the_friction_of_side_walls_that_move_with_it() {
 /// Ten disks of 2 cm fill a box of 40 cm exactly: they collide a million times where others do it a hundred times.
 #[test]
 fn a_packing_that_collides_without_end_is_refused_with_the_reason_and_the_parameter() {
-    let equal = EQUAL.map(|(name, _)| (name, Value::Real(0.02)));
-    let given = [
-        ("drive.amplitude", 7.757e-5.into()),
-        ("base.model", 1.into()),
-        ("work.limit", 2e5.into()),
-    ];
-    let mut packing = simulation::<HardPackingOnSine>(60, &[&equal[..], &given].concat());
+    let equal = EQUAL.map(|(name, _)| (name, 0.02));
+    let given = [("drive.amplitude", 7.757e-5), ("base.model", 1.0), ("work.limit", 2e5)];
+    let mut packing = simulation_of::<HardPackingOnSine>(60, &[&equal[..], &given].concat());
     let refusal = (1..=100)
         .find_map(|step| packing.advance_to(f64::from(step) * 1e-2).err())
         .unwrap()
@@ -277,7 +261,7 @@ fn a_packing_that_collides_without_end_is_refused_with_the_reason_and_the_parame
         "{}",
         packing.time()
     );
-    let mut usual = simulation::<HardPackingOnSine>(60, &[("work.limit", 2e5.into())]);
+    let mut usual = simulation_of::<HardPackingOnSine>(60, &[("work.limit", 2e5)]);
     (1..=20).for_each(|step| usual.advance_to(f64::from(step) * 0.1).unwrap());
 }
 

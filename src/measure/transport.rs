@@ -48,11 +48,14 @@ impl Transport {
         }
     }
 
-    /// Becomes an average from `mark` \[s\] on.
+    /// Becomes an average from `mark` \[s\] on, in the memory that it has.
     pub fn restart(&mut self, mark: f64) {
-        self.positions.clear();
-        (self.mark, self.work) = (mark, 0.0);
-        self.batches = BatchMeans::new(mark, Self::FIRST_BATCH);
+        let mut positions = std::mem::take(&mut self.positions);
+        positions.clear();
+        *self = Self {
+            positions,
+            ..Self::new(mark)
+        };
     }
 
     /// Makes room for as many disks, so that nothing is allocated when they are recorded first.

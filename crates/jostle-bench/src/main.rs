@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 done; 2 an argument is wrong and nothing was run; 1 a run or a file failed on the way.
 
+mod budget;
 mod csv_file;
 mod machine;
 mod nearest;

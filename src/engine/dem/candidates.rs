@@ -12,17 +12,13 @@ pub trait Candidate: Copy {
     fn remembers(&self) -> bool;
 }
 
-/// Candidates for which a list of so many disks has room, so that no step allocates for them.
+/// Makes room in a list for the candidates of so many disks, so that no step allocates for them.
 ///
 /// Equal disks with gaps below 0.8 radii have no more than three pairs a disk, since lines between neighbours cannot cross; with
 /// two walls and a base a disk has three walls. Disks of very different radii, or more walls, may have more: then lists grow.
-pub fn room(disks: usize) -> usize {
-    3 * disks + 8
-}
-
-/// Makes room in a list for so many disks.
 pub fn make_room<T>(list: &mut Vec<T>, disks: usize) {
-    list.reserve(room(disks).saturating_sub(list.len()));
+    let room = 3 * disks + 8;
+    list.reserve(room.saturating_sub(list.len()));
 }
 
 /// Replaces `list` by the candidates of `fresh`, which are sorted; those that `list` remembers stay as they are.

@@ -175,13 +175,16 @@ impl<S: Stepper, D: Drive> FixedGrid<S, D> {
     /// Changes positions and velocities from outside (initial states of tests and studies) and starts afresh from there.
     pub fn set_motion(&mut self, change: impl FnOnce(&mut S::Disks)) {
         change(&mut self.state.disks);
-        self.stepper.start(&mut self.state);
-        self.is_between = false;
+        self.start_afresh();
     }
 
     /// Gives all disks the velocity (x, y) \[m/s\] and no rotation, and starts afresh from there.
     pub fn set_velocity(&mut self, velocity: [f64; 2]) {
         self.stepper.set_velocity(&mut self.state.disks, velocity);
+        self.start_afresh();
+    }
+
+    fn start_afresh(&mut self) {
         self.stepper.start(&mut self.state);
         self.is_between = false;
     }

@@ -6,6 +6,7 @@
 mod library;
 mod samples;
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
@@ -14,8 +15,10 @@ use fmi_component::{Variable, token, value_reference};
 use jostle::Error;
 use jostle::scene::{ModelType, StructuralParameters, catalogue};
 
+use crate::budget::positive;
 use crate::csv_file::write_csv;
 use crate::machine;
+use crate::nearest::unknown;
 use samples::{Case, INPUTS, OUTPUTS, Summary};
 
 /// Scenes and engines, all on inputs, with numbers of disks.
@@ -67,7 +70,7 @@ pub struct RealTime {
     #[arg(long, default_value = "100000", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     steps: u32,
     /// CPU seconds after which a run ends with the steps that it has done.
-    #[arg(long, default_value = "40")]
+    #[arg(long, value_name = "SECONDS", default_value = "40", value_parser = positive, allow_negative_numbers = true)]
     budget: f64,
     /// Only scenes or engines of this name; may be repeated.
     #[arg(long, value_name = "NAME")]
@@ -84,8 +87,7 @@ impl RealTime {
             .with_context(|| format!("the folder {} cannot be made", self.out.display()))?;
         let mut rows = vec![HEADER.map(String::from)];
         for (scene, engine, counts) in scenes {
-            let wanted = |disks: &&u32| self.disks.is_empty() || self.disks.contains(disks);
-            for &disks in counts.iter().filter(wanted) {
+            for &disks in counts.iter().filter(|disks| self.wants(**disks)) {
                 for rate in RATES {
                     let row = self.measure(scene, engine, disks, rate)?;
                     println!("{}", row.join(", "));
@@ -99,20 +101,32 @@ impl RealTime {
         machine::write(&self.out.join("machine.csv"), &[("clock_cost", clock)])
     }
 
+    fn wants(&self, disks: u32) -> bool {
+        self.disks.is_empty() || self.disks.contains(&disks)
+    }
+
+    /// The scenes and engines of the names that are given.
+    ///
+    /// # Errors
+    /// A name that none has, or a number of disks that none of the chosen ones has.
     fn chosen(&self) -> Result<Vec<Chosen>, Error> {
-        let mut known: Vec<&str> = SCENES.iter().flat_map(|(scene, engine, _)| [*scene, *engine]).collect();
-        known.sort_unstable();
-        known.dedup();
-        if let Some(unknown) = self.only.iter().find(|name| !known.contains(&name.as_str())) {
-            let allowed = format!("one of: {}", known.join(", "));
-            return Err(Error::parameter("--only", unknown, allowed, "Name one of these."));
+        let known: BTreeSet<&str> = SCENES.iter().flat_map(|(scene, engine, _)| [*scene, *engine]).collect();
+        if let Some(wrong) = self.only.iter().find(|name| !known.contains(name.as_str())) {
+            return Err(unknown("--only", wrong, &Vec::from_iter(known)));
         }
         let wanted =
             |names: [&str; 2]| self.only.is_empty() || self.only.iter().any(|only| names.contains(&only.as_str()));
-        Ok(SCENES
+        let chosen: Vec<Chosen> = SCENES
             .into_iter()
             .filter(|(scene, engine, _)| wanted([scene, engine]))
-            .collect())
+            .collect();
+        let counts: BTreeSet<u32> = chosen.iter().flat_map(|(_, _, counts)| *counts).copied().collect();
+        if let Some(wrong) = self.disks.iter().find(|disks| !counts.contains(disks)) {
+            let allowed = Vec::from_iter(counts.iter().map(u32::to_string)).join(", ");
+            let remedy = "Give one of these, or other names to --only.";
+            return Err(Error::parameter("--disks", wrong, format!("one of: {allowed}"), remedy));
+        }
+        Ok(chosen)
     }
 
     fn measure(&self, scene: &str, engine: &str, disks: u32, rate: u32) -> Result<[String; HEADER.len()]> {
@@ -209,20 +223,62 @@ fn seconds(time: f64) -> String {
 mod tests {
     use super::*;
 
-    #[test]
-    fn an_unknown_name_is_refused_with_the_known_ones() {
+    /// The refusal of these names and numbers of disks.
+    fn refusal_of(only: &[&str], disks: &[u32]) -> String {
+        let out = std::env::temp_dir().join(format!("jostle-bench-refused-{}", std::process::id()));
         let command = RealTime {
-            out: PathBuf::new(),
+            out: out.clone(),
             steps: 1,
             budget: 1.0,
-            only: vec!["packign".into()],
-            disks: Vec::new(),
+            only: only.iter().map(|name| String::from(*name)).collect(),
+            disks: disks.to_vec(),
         };
-        let message = command.execute().unwrap_err().to_string();
+        let error = command.execute().unwrap_err();
+        assert!(!out.exists(), "a refused command makes no folder");
+        assert!(matches!(error.downcast_ref(), Some(Error::Parameter { .. })), "{error}");
+        error.to_string()
+    }
+
+    #[test]
+    fn an_unknown_name_is_refused_with_the_known_ones() {
+        let message = refusal_of(&["packign"], &[]);
         assert!(
             message.starts_with("--only = packign is not allowed: one of: event-driven"),
             "{message}"
         );
+        assert!(
+            message.contains("Did you mean packing? Name one of these."),
+            "{message}"
+        );
+    }
+
+    #[test]
+    fn disks_that_no_chosen_scene_has_are_refused() {
+        let message = refusal_of(&[], &[60, 61]);
+        assert!(
+            message.starts_with("--disks = 61 is not allowed: one of: 20, 60, 200, 1000"),
+            "{message}"
+        );
+        let message = refusal_of(&["ratchet"], &[1000]);
+        assert!(
+            message.starts_with("--disks = 1000 is not allowed: one of: 20, 60. "),
+            "{message}"
+        );
+    }
+
+    #[test]
+    fn a_budget_that_is_no_time_is_refused() {
+        #[derive(clap::Parser, Debug)]
+        struct Arguments {
+            #[command(flatten)]
+            command: RealTime,
+        }
+        let parse = |budget| <Arguments as clap::Parser>::try_parse_from(["real-time", "--budget", budget]);
+        for wrong in ["NaN", "-1", "0"] {
+            let message = parse(wrong).unwrap_err().to_string();
+            assert!(message.contains("give CPU seconds above 0"), "{message}");
+        }
+        assert_eq!(parse("inf").unwrap().command.budget, f64::INFINITY);
     }
 
     #[test]

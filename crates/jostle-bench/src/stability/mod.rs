@@ -15,6 +15,7 @@ use anyhow::{Context, Result};
 use clap::Args;
 use jostle::Error;
 
+use crate::budget::positive;
 use crate::nearest::unknown;
 use judge::{Judged, judge};
 use matrix::Probe;
@@ -41,13 +42,6 @@ pub struct Stability {
     /// The long runs of 1e8 to 1e9 steps, bounces or impacts, and nothing else; half an hour.
     #[arg(long)]
     long: bool,
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number > 0.0 => Ok(number),
-        _ => Err("give CPU seconds above 0, such as 1; inf for no end".into()),
-    }
 }
 
 impl Stability {
@@ -115,14 +109,6 @@ mod tests {
             "{message}"
         );
         assert!(message.contains("Did you mean wedge? Name one of these."), "{message}");
-    }
-
-    #[test]
-    fn a_budget_is_a_time_above_zero() {
-        for wrong in ["0", "-1", "NaN", "soon"] {
-            assert!(positive(wrong).is_err(), "{wrong}");
-        }
-        assert_eq!(positive("inf"), Ok(f64::INFINITY));
     }
 
     /// The corners of the matrix that are cheap. Whatever is violated is a defect; nothing may be violated here.

@@ -114,7 +114,7 @@ impl AnySimulation {
 
     /// What is doubtful about the parameters, each a sentence or two with what to do.
     pub fn warnings(&self) -> Vec<Warning> {
-        self.0.warnings()
+        self.0.warnings(&[])
     }
 
     /// Advances to `end_time` \[s\] under the inputs as they stand, as one communication step.

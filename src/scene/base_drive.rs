@@ -45,7 +45,7 @@ pub trait BaseDrive: Drive {
     fn frequency(&self) -> Option<f64>;
 
     /// What is doubtful of the inputs so far.
-    fn warning(&self) -> Option<Warning> {
+    fn warning(&self, _told: &[&'static str]) -> Option<Warning> {
         None
     }
 }

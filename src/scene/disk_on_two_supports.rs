@@ -286,8 +286,8 @@ impl<E: DiskOnTwoSupportsDrive> Model for DiskOnTwoSupportsScene<E> {
         self.step(end_time, values, false).map(|_| ())
     }
 
-    fn warnings(&self) -> Vec<Warning> {
-        self.engine.state().excitation.warning().into_iter().collect()
+    fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
+        self.engine.state().excitation.warning(told).into_iter().collect()
     }
 
     fn limit_work(&mut self, most: u64) {

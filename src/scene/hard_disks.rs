@@ -26,7 +26,7 @@ pub trait HardBase: VibratingBase {
     fn set_target(&mut self, time: f64, duration: f64, values: &Values) -> bool;
 
     /// What is doubtful of the inputs so far.
-    fn warning(&self) -> Option<Warning> {
+    fn warning(&self, _told: &[&'static str]) -> Option<Warning> {
         None
     }
 }
@@ -62,8 +62,8 @@ impl HardBase for Moving<FollowsInput> {
         true
     }
 
-    fn warning(&self) -> Option<Warning> {
-        self.drive.warning()
+    fn warning(&self, told: &[&'static str]) -> Option<Warning> {
+        self.drive.warning(told)
     }
 }
 

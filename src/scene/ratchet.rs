@@ -283,8 +283,8 @@ where
         })
     }
 
-    fn warnings(&self) -> Vec<Warning> {
-        self.engine.state().boundary.base().warning().into_iter().collect()
+    fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
+        self.engine.state().boundary.base().warning(told).into_iter().collect()
     }
 
     fn limit_work(&mut self, most: u64) {

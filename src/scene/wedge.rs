@@ -305,8 +305,8 @@ impl<E: WedgeEngine> Model for Wedge<E> {
         })
     }
 
-    fn warnings(&self) -> Vec<Warning> {
-        self.engine.warning().into_iter().collect()
+    fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
+        self.engine.warning(told).into_iter().collect()
     }
 
     fn limit_work(&mut self, most: u64) {

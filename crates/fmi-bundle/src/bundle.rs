@@ -54,12 +54,12 @@ pub fn find_library(identifier: &str, folders: &[&Path]) -> Result<PathBuf> {
 /// The library cannot be read, is not that of `component`, or the FMU cannot be written. There is then no new file, and one
 /// that was there is as before.
 pub fn write(component: &Component, version: Version, library: &Path, out: &Path) -> Result<()> {
-    let binary = fs::read(library).map_err(|error| cannot_read(library, &error))?;
-    let bytes = pack(component, version, &binary)?;
-    check_library(library, &bytes)?;
     if fs::metadata(out).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
         return Err(Error::file(out, "it is a device, no file", "Give the name of a file."));
     }
+    let binary = fs::read(library).map_err(|error| cannot_read(library, &error))?;
+    let bytes = pack(component, version, &binary)?;
+    check_library(library, &bytes)?;
     // Beside the target and then renamed, so that nobody meets half an FMU.
     let partial = out.with_added_extension("part");
     fs::write(&partial, &bytes)

@@ -75,10 +75,10 @@ fn root(component: &Component, version: Version) -> Attributes {
 fn capabilities(component: &Component, version: Version) -> Attributes {
     let offered = |causality| component.table().has_derivatives(causality);
     let order = if offered(Causality::Output) { "1" } else { "0" };
-    let interpolates = if offered(Causality::Input) { "true" } else { "false" };
     let flag = |is: bool| if is { "true" } else { "false" };
+    let interpolates = flag(offered(Causality::Input));
     let events = flag(component.model().events);
-    let updates = flag(component.model().events || component.model().input_parts > 0);
+    let updates = flag(component.model().updates_inside_steps());
     let flags: &[(&'static str, &str)] = match version {
         Version::Two => &[
             ("needsExecutionTool", "false"),

@@ -30,6 +30,11 @@ pub struct ModelType {
 }
 
 impl ModelType {
+    /// Whether an importer may be called inside of a step (`providesIntermediateUpdate`).
+    pub const fn updates_inside_steps(&self) -> bool {
+        self.events || self.input_parts > 0
+    }
+
     /// The model `M`.
     pub const fn of<M: Model>() -> Self {
         Self {
@@ -91,7 +96,7 @@ pub trait DynSimulation: Send {
     fn advance_to_event(&mut self, end_time: f64) -> Result<Reached>;
     fn resume_to_event(&mut self, end_time: f64) -> Result<Reached>;
     fn limit_work(&mut self, most: u64);
-    fn warnings(&self) -> Vec<Warning>;
+    fn warnings(&self, told: &[&'static str]) -> Vec<Warning>;
     fn save(&self) -> DynSaved;
     fn restore(&mut self, saved: &DynSaved) -> Result<()>;
     fn restore_anew(&mut self, saved: &DynSaved) -> Result<()>;
@@ -181,8 +186,8 @@ impl<M: Model> DynSimulation for Simulation<M> {
         self.limit_work(most);
     }
 
-    fn warnings(&self) -> Vec<Warning> {
-        self.warnings()
+    fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
+        self.warnings(told)
     }
 
     fn save(&self) -> DynSaved {

@@ -115,9 +115,9 @@ impl Instance {
         &self.token
     }
 
-    /// What is doubtful about the run so far.
-    pub fn warnings(&self) -> Vec<Warning> {
-        self.simulation.warnings()
+    /// What is doubtful about the run so far, but for the topics that were `told` before.
+    pub fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
+        self.simulation.warnings(told)
     }
 
     /// Whether the model has events.

@@ -34,7 +34,8 @@ pub enum Phase {
     /// A defect of the model showed (a panic). Only reading parameters and inputs, restoring a state, resetting and freeing are
     /// left.
     Failed,
-    /// FMI 3.0 intermediate update mode: inside a step, at an event, while it is reported to the importer. Values may be read. Never
+    /// FMI 3.0 intermediate update mode: inside a step, at an event or where inputs may be renewed, while this is reported to the
+    /// importer. Values may be read, and inputs set that are offered. Never
     /// saved; the last one, since saved states hold the others by their number.
     IntermediateUpdate,
 }
@@ -135,7 +136,9 @@ impl Call {
         let expected: Vec<_> = self.legal().iter().map(|phase| phase.name()).collect();
         let remedy = match phase {
             Phase::Failed => "Reset the instance, restore a saved state or free it.".into(),
-            Phase::IntermediateUpdate => "Read values only, and return from the callback first.".into(),
+            Phase::IntermediateUpdate => {
+                "Read values only, and set inputs if they are asked for; return from the callback first.".into()
+            }
             _ => format!("It is legal in: {}.", expected.join(", ")),
         };
         Err(Error::call(

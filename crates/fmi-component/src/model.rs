@@ -39,7 +39,7 @@ pub trait Model: Sized + Send + 'static {
     const EVENTS: bool = false;
 
     /// Parts of equal length into which a step is divided for an importer that offers inputs inside of it; 0 for a model that takes
-    /// inputs at the beginning of a step alone. The first part is [`Model::advance_to`], the others [`Model::resume_to_event`].
+    /// inputs at the beginning of a step alone. The first part is [`Model::advance_to_event`], the others [`Model::resume_to_event`].
     const INPUT_PARTS: u32 = 0;
 
     /// Static facts.
@@ -62,7 +62,8 @@ pub trait Model: Sized + Send + 'static {
 
     /// Advances to the next event, if there is one after the present time and not after `end_time` \[s\], else to
     /// `end_time`, where the state is the one after [`Model::advance_to`]. The event itself is handled: any way of going on from
-    /// there gives the bits of one step to the same end. Only called where [`Model::EVENTS`] is true.
+    /// there gives the bits of one step to the same end. Only called where [`Model::EVENTS`] is true
+    /// or [`Model::INPUT_PARTS`] is above 0.
     ///
     /// # Errors
     /// As [`Model::advance_to`].
@@ -74,7 +75,7 @@ pub trait Model: Sized + Send + 'static {
         })
     }
 
-    /// Resumes a step that [`Model::advance_to_event`] ended at an event: inputs with a given rate continue at that rate, and
+    /// Resumes a step that [`Model::advance_to_event`] ended at an event or at the end of a part: inputs with a given rate continue at that rate, and
     /// quantities of a whole step count from its beginning. The inputs among `values` are those of the beginning, unless
     /// [`Model::INPUT_PARTS`] is above 0: then they are those of now.
     ///
@@ -88,8 +89,9 @@ pub trait Model: Sized + Send + 'static {
     /// model whose calls take the same time whatever is asked of them has nothing to limit.
     fn limit_work(&mut self, _most: u64) {}
 
-    /// What is doubtful about the parameters, or the inputs so far. Asked for after the start and after each step.
-    fn warnings(&self) -> Vec<Warning> {
+    /// What is doubtful about the parameters, or the inputs so far, but for the topics that were `told` before. Asked for after the start
+    /// and after each step, so that nothing may be written for a topic that was told.
+    fn warnings(&self, _told: &[&'static str]) -> Vec<Warning> {
         Vec::new()
     }
 

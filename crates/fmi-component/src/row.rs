@@ -14,8 +14,6 @@ type Fill<M> = Arc<dyn Fn(&M, usize, &mut [f64]) + Send + Sync>;
 pub enum Read<M> {
     /// A real.
     Real(fn(&M) -> f64),
-    /// Element of a real array, counted from 0.
-    RealElement(fn(&M, usize) -> f64, usize),
     /// Element of a real array whose elements are variables in a row.
     RealArray {
         /// Reads any number of them.
@@ -34,7 +32,6 @@ impl<M> Clone for Read<M> {
     fn clone(&self) -> Self {
         match *self {
             Self::Real(read) => Self::Real(read),
-            Self::RealElement(read, index) => Self::RealElement(read, index),
             Self::RealArray { ref fill, index, count } => Self::RealArray {
                 fill: Arc::clone(fill),
                 index,
@@ -70,7 +67,6 @@ impl<M> Read<M> {
     pub(crate) fn fill(&self, model: &M, out: &mut [f64]) -> usize {
         match *self {
             Self::Real(read) => out[0] = read(model),
-            Self::RealElement(read, index) => out[0] = read(model, index),
             Self::RealArray { ref fill, index, count } => {
                 let filled = out.len().min(count - index);
                 fill(model, index, &mut out[..filled]);

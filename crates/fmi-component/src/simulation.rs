@@ -326,9 +326,9 @@ impl<M: Model> Simulation<M> {
         }
     }
 
-    /// What is doubtful about the run so far; nothing before the start.
-    pub fn warnings(&self) -> Vec<Warning> {
-        self.model.as_ref().map_or_else(Vec::new, M::warnings)
+    /// What is doubtful about the run so far, but for the topics that were `told` before; nothing before the start.
+    pub fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
+        self.model.as_ref().map_or_else(Vec::new, |model| model.warnings(told))
     }
 
     /// All values as of now, in the order of the variables.

@@ -41,13 +41,18 @@ impl<'path> CsvFile<'path> {
     }
 }
 
-/// Refuses a file that cannot be written; one that is there keeps what it holds.
+/// Refuses a file that cannot be written. One that is there keeps what it holds, and one that is not there is not left behind.
 ///
 /// # Errors
 /// It cannot be written.
 pub fn check(path: &Path) -> Result<(), Failure> {
-    let opened = File::options().append(true).create(true).open(path);
-    opened.map(drop).map_err(|error| Failure::file(path, &error))
+    let was_there = path.exists();
+    let opened = File::options().append(true).create(true).open(path).map(drop);
+    let tried = match was_there {
+        true => opened,
+        false => opened.and_then(|()| std::fs::remove_file(path)),
+    };
+    tried.map_err(|error| Failure::file(path, &error))
 }
 
 /// The failure of the file, with its kind.

@@ -122,7 +122,8 @@ impl Fields {
         output_file::check_csv("--output", &self.output)?;
         if let Some(profile) = &self.profile {
             output_file::check_csv("--profile", profile)?;
-            if *profile == self.output {
+            let whole = |path: &Path| std::path::absolute(path).ok();
+            if whole(profile) == whole(&self.output) {
                 let allowed = "another file than --output, which holds the fields";
                 return Err(Error::parameter("--profile", profile.display(), allowed, "Name two files.").into());
             }

@@ -140,7 +140,7 @@ fn run(options: &Run, selected: &Selected) -> Result<u64, Failure> {
 
 /// Says on standard error what is doubtful about the run.
 fn warn(simulation: &dyn DynSimulation) {
-    for warning in simulation.warnings() {
+    for warning in simulation.warnings(&[]) {
         eprintln!("jostle: warning: {}", warning.text);
     }
 }

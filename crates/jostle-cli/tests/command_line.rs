@@ -236,16 +236,20 @@ fn a_run_that_cannot_write_its_samples_leaves_no_parameters() {
 fn fields_refuses_its_files_before_it_computes() {
     let folder = folder("fields");
     let file = folder.join("fields.csv");
+    let _ = std::fs::remove_file(&file); // of an earlier run of this test
     let (path, nowhere) = (file.to_str().unwrap(), "no/such/folder/profile.csv");
     // So long a run would not end within the time of a test.
     let long = ["fields", "ratchet", "--seconds", "1e6", "--output", path, "--profile"];
+    let roundabout = folder.join(".").join("fields.csv");
     for (profile, code, message) in [
         (path, 2, "Name two files"),
+        (roundabout.to_str().unwrap(), 2, "Name two files"),
         (nowhere, 1, "no/such/folder does not exist"),
     ] {
         let output = jostle(&[&long[..], &[profile]].concat());
         assert_eq!(output.status.code(), Some(code), "{}", text(&output.stderr));
         assert!(text(&output.stderr).contains(message), "{}", text(&output.stderr));
+        assert!(!file.exists(), "a refused command left {path}");
     }
 }
 

@@ -50,7 +50,7 @@ pub trait DiskOnTwoSupportsDrive: Excitation {
     }
 
     /// What is doubtful of the inputs so far.
-    fn warning(&self) -> Option<Warning> {
+    fn warning(&self, _told: &[&'static str]) -> Option<Warning> {
         None
     }
 

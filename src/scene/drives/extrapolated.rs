@@ -1,7 +1,7 @@
 //! What inputs have in common that are extrapolated: the parameter that fixes the degree, and the warning of rates that
 //! contradict.
 
-use crate::drive::{Contradiction, Degree};
+use crate::drive::{Contradiction, Degree, InputHistory};
 use crate::scene::{Row, Values, Warning};
 
 /// Highest degree.
@@ -26,20 +26,20 @@ pub fn degree(name: &str, values: &Values) -> Degree {
     }
 }
 
-/// What to say of rates that contradict; `names` are those of a quantity and its rates.
-pub fn warning(contradiction: &Contradiction, names: [&'static str; 3]) -> Warning {
+/// What to say of rates that contradict, unless it was `told` before; `names` are those of a quantity and its rates.
+pub fn warning(history: &InputHistory, names: [&'static str; 3], told: &[&'static str]) -> Option<Warning> {
     let Contradiction {
         rate,
         time,
         given,
         found,
-    } = *contradiction;
+    } = history.contradiction()?;
     let (quantity, rate) = (names[rate - 1], names[rate]);
-    Warning {
+    (!told.contains(&rate)).then(|| Warning {
         topic: rate,
         text: format!(
             "{rate} is not the rate of {quantity}: at t = {time:e} s it is {given:e}, and {quantity} has changed by {found:e} per \
              second (SI units). Connect the rate of {quantity}, or leave {rate} unset."
         ),
-    }
+    })
 }

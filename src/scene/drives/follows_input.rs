@@ -73,11 +73,7 @@ impl BaseDrive for FollowsInput {
         None
     }
 
-    fn warning(&self) -> Option<Warning> {
-        let contradiction = self.history().contradiction()?;
-        Some(extrapolated::warning(
-            &contradiction,
-            [DISPLACEMENT, VELOCITY, ACCELERATION],
-        ))
+    fn warning(&self, told: &[&'static str]) -> Option<Warning> {
+        extrapolated::warning(self.history(), [DISPLACEMENT, VELOCITY, ACCELERATION], told)
     }
 }

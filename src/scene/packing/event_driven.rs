@@ -220,9 +220,10 @@ impl<E: HardEngine> Model for HardPacking<E> {
         })
     }
 
-    fn warnings(&self) -> Vec<Warning> {
-        let inputs = self.engine.warning();
-        self.warnings.iter().cloned().chain(inputs).collect()
+    fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
+        let new = |warning: &&Warning| !told.contains(&warning.topic);
+        let inputs = self.engine.warning(told);
+        self.warnings.iter().filter(new).cloned().chain(inputs).collect()
     }
 
     fn limit_work(&mut self, most: u64) {

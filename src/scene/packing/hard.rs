@@ -43,7 +43,7 @@ pub trait HardEngine: Engine<Stop = EventDrivenStop> {
     /// Takes the inputs at `time` \[s\] for a step of `duration` \[s\].
     fn set_target(&mut self, time: f64, duration: f64, values: &Values);
     /// What is doubtful of the inputs so far.
-    fn warning(&self) -> Option<Warning> {
+    fn warning(&self, _told: &[&'static str]) -> Option<Warning> {
         None
     }
     /// Motion of a disk at `time` \[s\].
@@ -131,8 +131,8 @@ impl<W: HardBase> HardEngine for HardDisks<W> {
         }
     }
 
-    fn warning(&self) -> Option<Warning> {
-        self.state().boundary.base.warning()
+    fn warning(&self, told: &[&'static str]) -> Option<Warning> {
+        self.state().boundary.base.warning(told)
     }
 
     fn work_done(&self) -> u64 {

@@ -295,9 +295,10 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
         })
     }
 
-    fn warnings(&self) -> Vec<Warning> {
-        let inputs = self.engine.state().drive.warning();
-        self.warnings.iter().cloned().chain(inputs).collect()
+    fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
+        let new = |warning: &&Warning| !told.contains(&warning.topic);
+        let inputs = self.engine.state().drive.warning(told);
+        self.warnings.iter().filter(new).cloned().chain(inputs).collect()
     }
 
     fn limit_work(&mut self, most: u64) {

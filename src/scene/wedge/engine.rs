@@ -74,7 +74,7 @@ pub trait WedgeEngine: Engine {
     fn set_target(&mut self, time: f64, duration: f64, values: &Values);
 
     /// What is doubtful of the inputs so far.
-    fn warning(&self) -> Option<Warning> {
+    fn warning(&self, _told: &[&'static str]) -> Option<Warning> {
         None
     }
 

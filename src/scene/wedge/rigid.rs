@@ -244,8 +244,8 @@ impl<D: BaseDrive + FirstHit> WedgeEngine for EventDriven<D> {
         }
     }
 
-    fn warning(&self) -> Option<Warning> {
-        self.state().walls.warning()
+    fn warning(&self, told: &[&'static str]) -> Option<Warning> {
+        self.state().walls.warning(told)
     }
 
     fn refused_step(stop: WedgeStop) -> Error {

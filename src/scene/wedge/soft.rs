@@ -123,8 +123,8 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
         self.drive_mut().set_target(time, duration, values);
     }
 
-    fn warning(&self) -> Option<Warning> {
-        self.state().drive.warning()
+    fn warning(&self, told: &[&'static str]) -> Option<Warning> {
+        self.state().drive.warning(told)
     }
 
     fn refused_step(breakdown: Breakdown) -> Error {

@@ -115,7 +115,7 @@ impl Entry {
             work(component)
         };
         // SAFETY: by the caller's promise.
-        unsafe { self.enter(checked) }
+        unsafe { self.read(checked) }
     }
 
     /// Enters for calls that set values: shut inside of an intermediate update unless the importer is asked for inputs.
@@ -125,35 +125,26 @@ impl Entry {
     pub unsafe fn set(self, work: impl FnOnce(&mut Component) -> Result<()>) -> Status {
         let checked = |component: &mut Component| {
             component.instance.check_setting()?;
-            work(component)
+            work(component)?;
+            if component.instance.is_stepping() {
+                // Inputs inside of a step are forgotten when its rest is refused: the next one may get others.
+                component.refused = None;
+            }
+            Ok(())
         };
         // SAFETY: by the caller's promise.
         unsafe { self.read(checked) }
     }
 
-    /// Enters for calls that only read values, which are allowed inside of an intermediate update.
+    /// Enters for calls that only read values, which are allowed inside of an intermediate update. A call that comes while another is
+    /// under way cannot log: what it needs is lent to that one, which tells of it at its end.
     ///
     /// # Safety
     /// As for [`Entry::change`].
     pub unsafe fn read(self, work: impl FnOnce(&mut Component) -> Result<()>) -> Status {
-        // SAFETY: by the caller's promise.
-        unsafe { self.enter(work) }
-    }
-
-    /// A call that comes while another is under way cannot log: what it needs is lent to that one, which tells of it at its end.
-    ///
-    /// # Safety
-    /// As for [`Entry::change`].
-    unsafe fn enter(self, work: impl FnOnce(&mut Component) -> Result<()>) -> Status {
         let pointer: *const Handle = self.pointer.cast_const().cast();
         // SAFETY: by the caller's promise.
-        let entered = unsafe {
-            Handle::enter(pointer, |component| {
-                let status = component.answer(self, work);
-                component.tell_barred(&Handle::take_barred(pointer));
-                status
-            })
-        };
+        let entered = unsafe { Handle::enter(pointer, |component| component.answer_and_tell(self, work)) };
         entered.unwrap_or_else(|barred| {
             if barred == Barred::Busy {
                 // SAFETY: by the caller's promise.
@@ -171,7 +162,7 @@ impl Entry {
         // SAFETY: by the caller's promise.
         unsafe {
             Handle::resume(self.pointer.cast_const().cast(), |component| {
-                component.answer(self, work)
+                component.answer_and_tell(self, work)
             })
         }
         .unwrap_or(Status::Error)
@@ -179,6 +170,18 @@ impl Entry {
 }
 
 impl Component {
+    /// Answers, and tells of the calls that came meanwhile.
+    ///
+    /// # Safety
+    /// The pointer of `entry` is to the handle of this component.
+    unsafe fn answer_and_tell(&mut self, entry: Entry, work: impl FnOnce(&mut Self) -> Result<()>) -> Status {
+        let status = self.answer(entry, work);
+        let pointer: *const Handle = entry.pointer.cast_const().cast();
+        // SAFETY: by the caller's promise.
+        self.tell_barred(&unsafe { Handle::take_barred(pointer) });
+        status
+    }
+
     fn answer(&mut self, entry: Entry, work: impl FnOnce(&mut Self) -> Result<()>) -> Status {
         if self.version != entry.version {
             let message = format!(
@@ -214,26 +217,27 @@ impl Component {
         }
     }
 
-    /// Notes how the step from `asked.0` by `asked.1` ended.
+    /// Notes how the step from `asked.0` by `asked.1` ended, and logs what has become doubtful by it.
     ///
     /// A step that the model cannot do is discarded, so that the importer may try a shorter one, or the same with other
-    /// inputs or from another state. Asked for the very same step again, the answer is an error: there are importers that otherwise repeat a discarded step without end.
+    /// inputs or from another state. Asked for the very same step again, the answer is an error: there are importers that otherwise
+    /// repeat a discarded step without end.
     ///
     /// # Errors
     /// That of `done`, with [`Error::Call`] in the place of a repeated [`Error::Step`].
-    pub fn note<T>(&mut self, asked: (f64, f64), done: Result<T>) -> Result<T> {
+    pub fn note<T>(&mut self, function: &str, asked: (f64, f64), done: Result<T>) -> Result<T> {
         if done.is_ok() {
             self.last_step = Status::Ok;
             self.refused = None;
+            self.warn(function);
         }
         done.map_err(|error| self.note_refusal(asked, error))
     }
 
     #[cold]
     fn note_refusal(&mut self, asked: (f64, f64), error: Error) -> Error {
-        let values = self.instance.values().to_vec();
-        let step = RefusedStep { asked, values };
-        let repeated = self.refused.as_ref() == Some(&step);
+        let same = |step: &RefusedStep| step.asked == asked && step.values == self.instance.values();
+        let repeated = self.refused.as_ref().is_some_and(same);
         match error {
             Error::Step {
                 model,
@@ -248,7 +252,8 @@ impl Component {
             }
             Error::Step { .. } => {
                 self.last_step = Status::Discard;
-                self.refused = Some(step);
+                let values = self.instance.values().to_vec();
+                self.refused = Some(RefusedStep { asked, values });
                 error
             }
             _ => {
@@ -260,12 +265,10 @@ impl Component {
 
     /// Logs what has become doubtful, once for each topic.
     pub fn warn(&mut self, function: &str) {
-        for warning in self.instance.warnings() {
-            if !self.warned.contains(&warning.topic) {
-                self.warned.push(warning.topic);
-                let message = format!("{function}: {}", warning.text);
-                self.logger.log(Status::Warning, Category::Warning, &message);
-            }
+        for warning in self.instance.warnings(&self.warned) {
+            self.warned.push(warning.topic);
+            let message = format!("{function}: {}", warning.text);
+            self.logger.log(Status::Warning, Category::Warning, &message);
         }
     }
 

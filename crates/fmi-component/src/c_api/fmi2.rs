@@ -78,9 +78,7 @@ pub unsafe fn do_step(entry: Entry, current: f64, step: f64) -> Status {
     unsafe {
         entry.change(|component| {
             let done = component.instance.do_step(current, step);
-            component.note((current, step), done)?;
-            component.warn(entry.function);
-            Ok(())
+            component.note(entry.function, (current, step), done).map(|_| ())
         })
     }
 }

@@ -84,7 +84,9 @@ pub unsafe fn instantiate(model: &ModelType, asked: Instantiation) -> Opaque {
         // SAFETY: by the caller's promise.
         let required = unsafe { memory::slice(required, count, "requiredIntermediateVariables") }?;
         check_required(&instance, model, required, asked.intermediate_update.is_some())?;
-        let inputs = model.input_parts > 0 && required.iter().any(|reference| instance.is_input(*reference));
+        let inputs = model.input_parts > 0
+            && !importer.stops_at_events()
+            && required.iter().any(|reference| instance.is_input(*reference));
         if inputs {
             instance.offer_inputs(model.input_parts);
         }
@@ -105,7 +107,7 @@ fn check_required(instance: &Instance, model: &ModelType, required: &[u32], list
         return Ok(());
     }
     let variables = required.len();
-    if !(model.events || model.input_parts > 0) {
+    if !model.updates_inside_steps() {
         return Err(Error::call(
             format!("{variables} intermediate variables are required, but providesIntermediateUpdate = false"),
             "Pass nRequiredIntermediateVariables = 0.",
@@ -182,14 +184,15 @@ pub unsafe fn update_discrete_states(
 
 /// `fmi3DoStep`.
 ///
-/// Events inside of the step are reported to a listener. Meanwhile nothing of the instance is borrowed and its lock is open,
-/// so that the importer may read values; the state table refuses all else, and freeing is ignored.
+/// Events inside of the step, or the places where inputs may be renewed, are reported to a listener. Meanwhile nothing of the instance
+/// is borrowed and its lock is open, so that the importer may read values and, if it offers inputs, set them; the state table refuses
+/// all else, and freeing is ignored.
 ///
 /// ```text
 /// enter, to the event, leave -> callback -> resume, to the next event, leave -> ... -> the end of the step
 /// ```
 ///
-/// An importer that handles events in event mode learns of them by where its steps end, and by nothing else.
+/// An importer that handles events in event mode learns of them by where its steps end, and by nothing else; it is not asked for inputs.
 ///
 /// # Safety
 /// As for [`Entry::change`] and [`StepResults`].
@@ -204,10 +207,7 @@ pub unsafe fn do_step(entry: Entry, current: f64, step: f64, results: StepResult
                 None => component.instance.do_step(current, step).map(Part::Done),
                 Some(_) => component.instance.begin_step(current, step),
             };
-            event = component.end_part(asked, part, &results)?;
-            if event.is_none() {
-                component.warn(entry.function);
-            }
+            event = component.end_part(entry.function, asked, part, &results)?;
             Ok(())
         })
     };
@@ -217,10 +217,7 @@ pub unsafe fn do_step(entry: Entry, current: f64, step: f64, results: StepResult
         status = unsafe {
             entry.resume(|component| {
                 let part = component.instance.resume_step(early_return);
-                event = component.end_part(asked, part, &results)?;
-                if event.is_none() {
-                    component.warn(entry.function);
-                }
+                event = component.end_part(entry.function, asked, part, &results)?;
                 Ok(())
             })
         };
@@ -235,6 +232,7 @@ impl Component {
     /// As for [`StepResults`].
     unsafe fn end_part(
         &mut self,
+        function: &str,
         asked: (f64, f64),
         part: Result<Part>,
         results: &StepResults,
@@ -245,7 +243,7 @@ impl Component {
             Ok(Part::Done(reached)) => Ok(reached),
             Err(error) => Err(error),
         };
-        let reached = self.note(asked, reached)?;
+        let reached = self.note(function, asked, reached)?;
         // SAFETY: by the caller's promise.
         unsafe { results.write(reached, asked.0 + asked.1) }.map(|()| None)
     }

@@ -1,4 +1,4 @@
-//! An importer that wants to be called at events inside of a step: intermediate update (FMI 3.0 section 4.2).
+//! An importer that wants to be called inside of a step, at events or to renew inputs: intermediate update (FMI 3.0 section 4.2).
 
 use super::types::{Boolean, FALSE, IntermediateUpdate, Opaque, TRUE};
 
@@ -16,7 +16,7 @@ pub struct Listener {
 }
 
 impl Listener {
-    /// Reports an event at `time` \[s\]. Gives the time at which the importer wants the step to end, if it wants that and may;
+    /// Reports an event, or a place to renew inputs, at `time` \[s\]. Gives the time at which the importer wants the step to end, if it wants that and may;
     /// a request is ignored where `canReturnEarly` was false.
     pub fn report(&self, time: f64) -> Option<f64> {
         let (mut wanted, mut until) = (FALSE, time);

@@ -137,6 +137,5 @@ mod tests {
         assert_eq!(LOG_CATEGORIES[Category::Discard as usize].0, "logStatusDiscard");
         assert_eq!(LOG_CATEGORIES[Category::Warning as usize].0, "logStatusWarning");
         assert_eq!(LOG_CATEGORIES[Category::Events as usize].0, "logEvents");
-        assert_eq!(LOG_CATEGORIES[Category::Warning as usize].0, "logStatusWarning");
     }
 }

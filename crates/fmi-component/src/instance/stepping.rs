@@ -4,6 +4,7 @@
 //! Guarantees: a refused step leaves time, values and state as before, even if events inside of it were reported already.
 
 use super::{Instance, Snapshot};
+use crate::dynamic::DynSimulation;
 use crate::error::{Error, Result};
 use crate::life_cycle::{Call, Phase};
 use crate::model::Reached;
@@ -72,18 +73,19 @@ impl Instance {
             end,
             parts: 0,
         };
-        let reached = match self.input_parts {
-            0 => self.simulation.advance_to_event(end),
-            _ => self.advance_part(&step),
-        };
-        self.end_part(step, reached)
+        self.advance_part(step, |simulation, end| simulation.advance_to_event(end))
     }
 
-    /// The first part of a step inside of which inputs are offered.
-    fn advance_part(&mut self, step: &UnderWay) -> Result<Reached> {
-        let time = self.end_of_part(step);
-        self.simulation.advance_to(time)?;
-        Ok(Reached { time, event: false })
+    /// Does the next part of a step, or goes to an event before its end, by `advance`.
+    fn advance_part(
+        &mut self,
+        mut step: UnderWay,
+        advance: impl FnOnce(&mut dyn DynSimulation, f64) -> Result<Reached>,
+    ) -> Result<Part> {
+        let end = self.end_of_part(&step);
+        let reached = advance(&mut *self.simulation, end);
+        step.parts += u32::from(reached.as_ref().is_ok_and(|reached| reached.time == end));
+        self.end_part(step, reached)
     }
 
     /// Where the next part of a step ends \[s\].
@@ -98,7 +100,7 @@ impl Instance {
             .max(self.time().next_up())
     }
 
-    /// Resumes a step after an event. The step ends at `early_return` \[s\] if that is given, or at once if it is past or not
+    /// Resumes a step after a [`Part::Event`]. The step ends at `early_return` \[s\] if that is given, or at once if it is past or not
     /// finite. Of several such times the first counts; one beyond the end changes nothing.
     ///
     /// # Errors
@@ -109,24 +111,23 @@ impl Instance {
         let Some(mut step) = under_way else {
             return Err(Error::call("no step is under way", "Reset the instance."));
         };
-        step.parts += 1;
         let now = self.time();
         if let Some(time) = early_return {
             let wanted = if time.is_finite() { time.max(now) } else { now };
             step.end = step.end.min(wanted);
         }
-        let reached = match step.end > now {
-            true => self.simulation.resume_to_event(self.end_of_part(&step)),
-            false => Ok(Reached {
-                time: now,
-                event: false,
-            }),
+        if step.end > now {
+            return self.advance_part(step, |simulation, end| simulation.resume_to_event(end));
+        }
+        let reached = Reached {
+            time: now,
+            event: false,
         };
-        self.end_part(step, reached)
+        self.end_part(step, Ok(reached))
     }
 
-    /// Whether a step is under way of which an event is reported: anything but reading would change the state that the step
-    /// resumes from.
+    /// Whether a step is under way of which an event is reported: anything but reading, and setting inputs that are
+    /// offered, would change the state that the step resumes from.
     pub fn is_stepping(&self) -> bool {
         self.under_way.is_some()
     }

@@ -60,9 +60,8 @@ impl DiskOnTwoSupportsDrive for InputTorque {
         Self::set_target(self, time, end, values.real(TORQUE), values.real(RATE))
     }
 
-    fn warning(&self) -> Option<Warning> {
-        let contradiction = self.history().contradiction()?;
-        Some(extrapolated::warning(&contradiction, [TORQUE, RATE, RATE]))
+    fn warning(&self, told: &[&'static str]) -> Option<Warning> {
+        extrapolated::warning(self.history(), [TORQUE, RATE, RATE], told)
     }
 
     fn continues(&self, _other: &Self) -> bool {

@@ -185,8 +185,9 @@ impl Model for Oscillators {
         self.most_steps = most;
     }
 
-    fn warnings(&self) -> Vec<Warning> {
-        self.warnings.clone()
+    fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
+        let new = |warning: &&Warning| !told.contains(&warning.topic);
+        self.warnings.iter().filter(new).cloned().collect()
     }
 
     fn state(&self) -> State {

@@ -80,5 +80,9 @@ def call(app: typer.Typer) -> None:
 def main() -> None:
     """Entry point."""
     call(
-        application(HELP, demo, draw, exchanges, held_loop, step_control, sweep, ratchet_demo, torque_demo, loudspeaker)
+        application(
+            HELP,
+            *(demo, draw, exchanges, held_loop, step_control, sweep, ratchet_demo, torque_demo, loudspeaker),
+            lazily("studies.claims.command:claims"),
+        )
     )

@@ -5,7 +5,7 @@ A run is found again by its arguments and by the program itself: rebuild the pro
 
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -14,8 +14,11 @@ from typing import Any
 from joblib import Memory, Parallel, delayed
 from tqdm import tqdm
 
+from jostle_lab.errors import LabError
 from jostle_lab.locate import fingerprint
 from jostle_lab.programs import output_of
+from jostle_lab.runs.dask_backend import dask_backend
+from jostle_lab.runs.records import Records
 from jostle_lab.runs.run import Run
 from jostle_lab.tables import Table, parse_csv
 
@@ -30,9 +33,15 @@ class Laboratory:
     processes: int = 2
     show_progress: bool = True
     scheduler: str | None = None
-    """Address of a Dask scheduler for the runs that are swept; None: processes of this machine."""
+    """Address of a Dask scheduler; None: processes of this machine."""
+    records: Records | None = None
+    """What is kept of the runs of a study; asked first."""
+    frozen: bool = False
+    """Run nothing: everything must be in the records."""
     spent: float = field(default=0.0, init=False)
     """Processor time of all runs asked for so far, also of those found on disk [s]."""
+    asked: dict[str, int | None] = field(default_factory=dict, init=False)
+    """Arguments of all runs asked for so far, and their seeds."""
 
     @cached_property
     def version(self) -> str:
@@ -47,14 +56,45 @@ class Laboratory:
     def run(self, runs: Sequence[Run], title: str) -> dict[Run, Table]:
         """Every run's table; those that are on disk already are read only."""
         wanted = list(dict.fromkeys(runs))
-        jobs = (delayed(self._kept_run)(self.program, self.version, run.arguments()) for run in wanted)
-        done = Parallel(self.processes, prefer="threads", return_as="generator")(jobs)
-        bar = tqdm(done, total=len(wanted), unit="run", desc=title, disable=not self.show_progress)
-        tables = {}
-        for run, (table, seconds) in zip(wanted, bar, strict=True):
+        tables: dict[Run, Table] = {}
+        for run in wanted:
+            self.asked[run.key()] = run.seed
+            if self.records is not None and (kept := self.records.find(run.key())) is not None:
+                tables[run], seconds = kept
+                self.spent += seconds
+        missing = [run for run in wanted if run not in tables]
+        self._refuse_if_frozen(len(missing), title)
+        for run, (table, seconds) in zip(missing, self._performed(missing, title), strict=True):
             tables[run] = table
             self.spent += seconds
-        return tables
+            if self.records is not None:
+                tables[run] = self.records.add(run.key(), self.version, seconds, table)
+        return {run: tables[run] for run in wanted}
+
+    def computed(self, key: str, compute: Callable[[], tuple[Table, float]]) -> Table:
+        """A table that is not that of a run, with its processor time [s], by the name under which it is kept."""
+        self.asked[key] = None
+        kept = self.records.find(key) if self.records is not None else None
+        if kept is None:
+            self._refuse_if_frozen(1, key)
+            table, seconds = compute()
+            kept = (self.records.add(key, self.version, seconds, table) if self.records else table), seconds
+        self.spent += kept[1]
+        return kept[0]
+
+    def _refuse_if_frozen(self, missing: int, title: str) -> None:
+        if self.frozen and missing:
+            raise LabError(f"{missing} runs of {title} are not kept in {self.records and self.records.file}.")
+
+    def _performed(self, runs: Sequence[Run], title: str) -> Iterator[tuple[Table, float]]:
+        """Tables and processor times in the order of the runs; here, or on the workers of the scheduler."""
+        if not runs:
+            return
+        with dask_backend(self.scheduler):
+            jobs = (delayed(self._kept_run)(self.program, self.version, run.arguments()) for run in runs)
+            threads = None if self.scheduler else "threads"
+            done = Parallel(self.processes, prefer=threads, return_as="generator")(jobs)
+            yield from tqdm(done, total=len(runs), unit="run", desc=title, disable=not self.show_progress)
 
     def theory(self, scene: str, quantity: str, **settings: Sequence[float] | float) -> Table:
         """What `jostle theory` prints; `__` in a name stands for a dot. All combinations, the first name slowest."""

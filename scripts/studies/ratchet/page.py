@@ -7,6 +7,7 @@ The page is a function of the two files: a test makes it anew and compares.
 """
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -100,15 +101,23 @@ def read_flow(path: Path) -> dict[str, Flow]:
     return flows
 
 
+def kept_sections(docs: Path) -> list["Section"]:
+    """What is kept in a folder says, figure by figure."""
+    return _sections(read_points(docs / POINTS), read_flow(docs / FLOW))
+
+
+def _sections(points: dict[Case, Point], flows: dict[str, Flow]) -> list["Section"]:
+    sections = [_study(study, points) for study in STUDIES] + [_flow(study, points, flows) for study in FLOWS]
+    return sorted(sections, key=lambda section: int(section.number.removeprefix("F")))
+
+
 def page(points: dict[Case, Point], flows: dict[str, Flow]) -> str:
     """The whole page."""
-    sections = [_study(study, points) for study in STUDIES] + [_flow(study, points, flows) for study in FLOWS]
-    sections.sort(key=lambda section: int(section.number.removeprefix("F")))
+    sections = _sections(points, flows)
     statements = [s for section in sections for s in section.statements]
     counts = Counter(s.verdict for s in statements)
     total = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
-    disks_seconds = sum(c.disks * (c.seconds + c.warm_up) * p.runs for c, p in points.items())
-    cost = f"{disks_seconds / DISK_SECONDS / 60.0:.0f} min"
+    cost = f"{_disk_seconds(points) / DISK_SECONDS / 60.0:.0f} min"
     runs = sum(p.runs for p in points.values())
     lines = [HEAD.format(cost=cost), f"{len(statements)} statements: {total}. {runs} runs of {len(points)} cases."]
     for section in sections:
@@ -138,6 +147,12 @@ class Section:
     """How many there are."""
     statements: list[Statement]
     tables: list[Table]
+    notes: Sequence[str]
+    count: int
+    """Of the runs."""
+    seeds: str
+    seconds: float
+    """Processor time, roughly."""
 
 
 def _runs(points: Points, plan: Plan) -> str:
@@ -152,14 +167,25 @@ def _study(study: Study, points: dict[Case, Point]) -> Section:
     plan = study.plan(False)
     ours = lean_on_each_other(chosen(points, plan))
     runs = f"{'; '.join(study.notes)}. {_runs(ours, plan)}"
-    return Section(study.number, study.title, runs, study.statements(ours), study.tables(ours))
+    statements, tables = study.statements(ours), study.tables(ours)
+    return Section(study.number, study.title, runs, statements, tables, study.notes, *_effort(ours))
+
+
+def _effort(points: Points) -> tuple[int, str, float]:
+    """Runs, seeds, processor time."""
+    most = max(point.runs for point in points.values())
+    return sum(p.runs for p in points.values()), f"1 to {most}", _disk_seconds(points) / DISK_SECONDS
+
+
+def _disk_seconds(points: Points) -> float:
+    return sum(c.disks * (c.seconds + c.warm_up) * p.runs for c, p in points.items())
 
 
 def _flow(study: FlowStudy, points: dict[Case, Point], flows: dict[str, Flow]) -> Section:
     plan = study.plan(False)
     ours = chosen(points, plan)
     statements = study.statements(ours, flows[study.number])
-    return Section(study.number, study.title, _runs(ours, plan), statements, study.tables(ours))
+    return Section(study.number, study.title, _runs(ours, plan), statements, study.tables(ours), (), *_effort(ours))
 
 
 def compute(laboratory: Laboratory, docs: Path) -> None:

@@ -9,12 +9,13 @@ import pytest
 from jostle_lab.errors import LabError
 from jostle_lab.runs.laboratory import Laboratory
 from studies.examples import GENERATED
-from studies.figures import STUDIES, make_figure, maker
+from studies.figures import make_figure
 from studies.ratchet import fields, frequency, page, quoted, shape
 from studies.ratchet.cases import Case, Point, frequency_of, gamma_of
 from studies.ratchet.observe import chosen, read_points, write_points
 from studies.ratchet.onset import fit_onset
 from studies.ratchet.study import Curve, curves
+from studies.registry import STUDIES, maker
 
 GAMMAS = (1.0, 1.1, 1.2, 1.25, 1.3, 1.35, 1.4, 1.5, 1.6, 1.8, 2.0, 2.4, 2.8, 3.2, 4.0)
 

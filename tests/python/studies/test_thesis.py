@@ -20,7 +20,7 @@ from jostle_lab.statistics.estimates import (
     zero_crossings,
 )
 from jostle_lab.tables import parse_csv
-from studies.figures import MODULES, maker
+from studies.registry import MODULES, maker
 from studies.thesis.packing.runs import MOVING, RANDOM_PHASE, Record, mean_square, packing_run, persistent_square
 from studies.thesis.wedge import collapse as wedge_collapse
 from studies.thesis.wedge import curves as wedge

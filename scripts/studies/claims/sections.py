@@ -1,0 +1,81 @@
+"""The claims of one figure: what its study says, from the record of its runs."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from jostle_lab.plots.style import house_style
+from jostle_lab.runs.laboratory import Laboratory
+from jostle_lab.runs.records import Records
+from jostle_lab.statements import Product, Statement
+from studies.ratchet.page import compute as compute_ratchet
+from studies.ratchet.page import kept_sections
+from studies.registry import MODULES, PRECISE, maker
+
+FOLDER = "claims"
+"""Folder of the records, beside the page."""
+
+
+@dataclass(frozen=True)
+class Section:
+    """A figure or a part of a paper, with its claims."""
+
+    figure: str
+    title: str
+    statements: Sequence[Statement]
+    notes: Sequence[str]
+    runs: int
+    seeds: str
+    """Such as `1 to 25`."""
+    seconds: float
+    """Processor time of the runs."""
+
+    def row_names(self) -> list[str]:
+        """Names of the rows, such as 3.6-1."""
+        return [f"{self.figure}-{number}" for number, _ in enumerate(self.statements, 1)]
+
+
+def record_file(docs: Path, figure: str) -> Path:
+    """Where the record of a figure of the thesis is kept; figures of one module share it."""
+    module = MODULES[figure].partition(":")[0]
+    return docs / FOLDER / f"{module}.parquet"
+
+
+def thesis_section(figure: str, laboratory: Laboratory, docs: Path, compute: bool) -> tuple[Section, Product]:
+    """Claims of a figure of the thesis; with `compute` the runs that its record lacks are done and kept."""
+    records = Records(record_file(docs, figure), single=figure not in PRECISE)
+    laboratory.records, laboratory.frozen = records, not compute
+    laboratory.spent, laboratory.asked = 0.0, {}
+    with house_style():
+        product = maker(figure)(laboratory, False, None)
+    if compute:
+        records.write()
+    laboratory.records, laboratory.frozen = None, False
+    seeds = [seed for seed in laboratory.asked.values() if seed is not None]
+    section = Section(
+        figure,
+        product.title,
+        product.statements,
+        product.notes,
+        len(laboratory.asked),
+        _range(seeds),
+        laboratory.spent,
+    )
+    return section, product
+
+
+def ratchet_sections(docs: Path) -> Iterator[Section]:
+    """Claims of the figures of F, from the velocities that are kept."""
+    for found in kept_sections(docs):
+        yield Section(found.number, found.title, found.statements, found.notes, found.count, found.seeds, found.seconds)
+
+
+def compute_ratchet_data(laboratory: Laboratory, docs: Path) -> None:
+    """Do the runs of F that are missing and replace what is kept of them."""
+    compute_ratchet(laboratory, docs)
+
+
+def _range(seeds: Sequence[int]) -> str:
+    if not seeds:
+        return "none"
+    return f"{min(seeds)} to {max(seeds)}" if len(set(seeds)) > 1 else str(seeds[0])

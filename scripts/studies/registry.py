@@ -1,0 +1,65 @@
+"""Figures of both papers and the modules that make them."""
+
+from collections.abc import Callable
+from importlib import import_module
+
+from jostle_lab.runs.laboratory import Laboratory
+from jostle_lab.statements import Product
+
+Maker = Callable[[Laboratory, bool, int | None], Product]
+
+MODULES = {
+    "3.10": "packing.paths",
+    "3.11": "packing.comparison",
+    "4.3": "two_supports.region",
+    "4.5": "restitution",
+    "5.1": "two_supports.regimes",
+    "5.2": "two_supports.amplitude:linear",
+    "5.3": "two_supports.amplitude:logarithmic",
+    "5.4": "two_supports.tilt:linear",
+    "5.5": "two_supports.tilt:logarithmic",
+    "5.6": "two_supports.path",
+    "5.7": "two_supports.amplitude:closed_form",
+    "5.8": "two_supports.random_supports:against_amplitude",
+    "5.9": "two_supports.random_supports:against_tilt",
+    "6.3": "wedge.dynamics",
+    "6.4": "wedge.collapse",
+    "6.5": "wedge.engines",
+    "6.6": "wedge.friction",
+    "6.7": "wedge.aperture",
+    "6.8": "wedge.restitution",
+    "6.9": "wedge.stiffness_ratio",
+    "engines": "engines",
+    "closed-form": "two_supports.closed_form",
+    "supports": "two_supports.noise",
+}
+"""Figure of the thesis and the module of `studies.thesis` that makes it, with its function if that is not `make`."""
+STUDIES = {
+    "F3": "experiment:EXPERIMENT",
+    "F6": "shape:ASYMMETRY",
+    "F7": "shape:HEIGHT",
+    "F8": "layers:NEGATIVE",
+    "F9": "layers:POSITIVE",
+    "F10": "frequency:LAYERS",
+    "F11": "threshold:ONSET",
+    "F12": "frequency:TRANSITION",
+    "F13": "flow:FORWARDS",
+    "F14": "flow:BACKWARDS",
+}
+"""Figure of F and the study in `studies.ratchet` that makes it."""
+PRECISE = frozenset({"4.3", "4.5", "5.1", "5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "closed-form", "engines"})
+"""Figures without chance, whose runs are kept in double precision."""
+NUMBERS = (*MODULES, *STUDIES)
+GROUPS = {"all": tuple(MODULES), "F": tuple(STUDIES)}
+"""Names for many figures."""
+
+
+def maker(number: str) -> Maker:
+    """The function that makes a figure."""
+    if number in STUDIES:
+        module, name = STUDIES[number].split(":")
+        made: Maker = getattr(import_module(f"studies.ratchet.{module}"), name).make
+        return made
+    module, _, function = MODULES[number].partition(":")
+    found: Maker = getattr(import_module(f"studies.thesis.{module}"), function or "make")
+    return found

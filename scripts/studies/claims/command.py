@@ -31,7 +31,13 @@ def claims(
     Safe to interrupt and to repeat: finished runs are kept in results/runs and results/ratchet-sweep.
     """
     from studies.claims.page import page
-    from studies.claims.sections import compute_ratchet_data, ratchet_sections, record_file, thesis_section
+    from studies.claims.sections import (
+        compute_ratchet_data,
+        forget_others,
+        ratchet_sections,
+        record_file,
+        thesis_section,
+    )
     from studies.registry import MODULES, STUDIES
 
     wanted = _figures(compute or [], [*MODULES, *STUDIES])
@@ -44,6 +50,8 @@ def claims(
             sections.append(thesis_section(figure, laboratory, docs, figure in wanted)[0])
         else:
             typer.echo(f"{figure} has no record and is left out: --compute {figure} makes one", err=True)
+    if wanted:
+        forget_others(sections, docs)
     replace_text(docs / PAGE, page(sections))
     typer.echo(docs / PAGE)
 

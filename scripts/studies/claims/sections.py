@@ -10,7 +10,7 @@ from jostle_lab.runs.records import Records
 from jostle_lab.statements import Product, Statement
 from studies.ratchet.page import compute as compute_ratchet
 from studies.ratchet.page import kept_sections
-from studies.registry import MODULES, PRECISE, maker
+from studies.registry import MODULES, PRECISE, RECORDS, maker
 
 FOLDER = "claims"
 """Folder of the records, beside the page."""
@@ -24,7 +24,8 @@ class Section:
     title: str
     statements: Sequence[Statement]
     notes: Sequence[str]
-    runs: int
+    runs: Sequence[str]
+    """What they are found by."""
     seeds: str
     """Such as `1 to 25`."""
     seconds: float
@@ -37,8 +38,8 @@ class Section:
 
 def record_file(docs: Path, figure: str) -> Path:
     """Where the record of a figure of the thesis is kept; figures of one module share it."""
-    module = MODULES[figure].partition(":")[0]
-    return docs / FOLDER / f"{module}.parquet"
+    name = RECORDS.get(figure, MODULES[figure].partition(":")[0])
+    return docs / FOLDER / f"{name}.parquet"
 
 
 def thesis_section(figure: str, laboratory: Laboratory, docs: Path, compute: bool) -> tuple[Section, Product]:
@@ -57,7 +58,7 @@ def thesis_section(figure: str, laboratory: Laboratory, docs: Path, compute: boo
         product.title,
         product.statements,
         product.notes,
-        len(laboratory.asked),
+        tuple(laboratory.asked),
         _range(seeds),
         laboratory.spent,
     )
@@ -67,7 +68,21 @@ def thesis_section(figure: str, laboratory: Laboratory, docs: Path, compute: boo
 def ratchet_sections(docs: Path) -> Iterator[Section]:
     """Claims of the figures of F, from the velocities that are kept."""
     for found in kept_sections(docs):
-        yield Section(found.number, found.title, found.statements, found.notes, found.count, found.seeds, found.seconds)
+        runs = [str(number) for number in range(found.count)]
+        yield Section(found.number, found.title, found.statements, found.notes, runs, found.seeds, found.seconds)
+
+
+def forget_others(sections: Sequence[Section], docs: Path) -> None:
+    """Take out of the records what no figure asks for."""
+    asked: dict[Path, set[str]] = {}
+    for section in sections:
+        if section.figure in MODULES:
+            asked.setdefault(record_file(docs, section.figure), set()).update(section.runs)
+    figures = {section.figure for section in sections}
+    for file, runs in asked.items():
+        of_file = {figure for figure in MODULES if record_file(docs, figure) == file}
+        if of_file <= figures:
+            Records(file, single=not of_file & PRECISE).write(runs)
 
 
 def compute_ratchet_data(laboratory: Laboratory, docs: Path) -> None:

@@ -9,7 +9,12 @@ from jostle_lab.statements import Product
 Maker = Callable[[Laboratory, bool, int | None], Product]
 
 MODULES = {
-    "3.10": "packing.paths",
+    "3.5": "packing.paths:molecular_dynamics",
+    "3.6": "packing.mean_square",
+    "3.7": "packing.steadiness",
+    "3.8": "packing.steadiness:histograms",
+    "3.9": "packing.stiffness",
+    "3.10": "packing.paths:event_driven",
     "3.11": "packing.comparison",
     "4.3": "two_supports.region",
     "4.5": "restitution",

@@ -4,7 +4,6 @@ A run is found again by its arguments and by the program itself: rebuild the pro
 """
 
 import tempfile
-import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -16,7 +15,7 @@ from tqdm import tqdm
 
 from jostle_lab.errors import LabError
 from jostle_lab.locate import fingerprint
-from jostle_lab.programs import output_of
+from jostle_lab.programs import output_of, timed
 from jostle_lab.runs.dask_backend import dask_backend
 from jostle_lab.runs.records import Record, Records
 from jostle_lab.runs.run import Run
@@ -39,7 +38,7 @@ class Laboratory:
     frozen: bool = False
     """Run nothing: everything must be in the records."""
     spent: float = field(default=0.0, init=False)
-    """Processor time of all runs asked for so far, also of those found on disk [s]."""
+    """Processor time of all runs asked for so far, each counted once, also of those found on disk [s]."""
     asked: dict[str, int | None] = field(default_factory=dict, init=False)
     """Arguments of all runs asked for so far, and their seeds."""
 
@@ -57,16 +56,17 @@ class Laboratory:
         """Every run's table; those that are on disk already are read only."""
         wanted = list(dict.fromkeys(runs))
         tables: dict[Run, Table] = {}
+        new = {run for run in wanted if run.key() not in self.asked}
         for run in wanted:
             self.asked[run.key()] = run.seed
             if (kept := self._recorded(run)) is not None:
                 tables[run] = kept.table
-                self.spent += kept.seconds
+                self.spent += kept.seconds if run in new else 0.0
         missing = [run for run in wanted if run not in tables]
         self._refuse_if_frozen(len(missing), title)
         for run, (table, seconds) in zip(missing, self._performed(missing, title), strict=True):
             tables[run] = table
-            self.spent += seconds
+            self.spent += seconds if run in new else 0.0
             if self.records is not None:
                 tables[run] = self.records.add(run.key(), self.version, seconds, table).table
         return {run: tables[run] for run in wanted}
@@ -120,10 +120,12 @@ class Laboratory:
 
 
 def _perform(program: Path, version: str, arguments: list[str]) -> tuple[Table, float]:
-    """Table of a run and the seconds that it took; `version` is there for joblib: another program, another run."""
+    """Table of a run and its processor time [s]; `version` is there for joblib: another program, another run."""
     del version
-    begun = time.perf_counter()
     with tempfile.TemporaryDirectory(prefix="jostle-") as folder:
-        output = Path(folder) / "run.csv"
-        output_of([str(program), *arguments, "--output", str(output)])
-        return parse_csv(output.read_text()), time.perf_counter() - begun
+        output, messages = Path(folder) / "run.csv", Path(folder) / "messages"
+        words = [str(program), *arguments, "--output", str(output)]
+        ended = timed(words, messages)
+        if ended.code != 0:
+            raise LabError(f"{' '.join(words)} failed:\n{messages.read_text(errors='replace').strip()}")
+        return parse_csv(output.read_text()), ended.processor_seconds

@@ -15,7 +15,7 @@ from jostle_lab.runs.run import Run
 from jostle_lab.statistics.estimates import Estimate, Numbers, bootstrap_mean
 from jostle_lab.statistics.rotation import RPM
 from jostle_lab.tables import Table
-from studies.thesis.packing.runs import DISKS, FREQUENCY, GRAVITY, MOLECULAR, RANDOM_PHASE, Method, amplitude
+from studies.thesis.packing.runs import DISKS, MOLECULAR, RANDOM_PHASE, Method, shaken
 
 GAMMAS = (
     *(0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0, 3.0, 4.0, 5.0, 6.5, 8.0),
@@ -47,18 +47,9 @@ class Point:
 
     def run(self, seed: int) -> Run:
         """The run of a packing, other parameters as in P 3.2 (the scene's defaults)."""
-        settings: list[tuple[str, float]] = [
-            ("seed", seed),
-            ("gravity", GRAVITY),
-            ("drive.amplitude", amplitude(self.gamma)),
-            ("drive.frequency", FREQUENCY),
-            ("contact.normal_stiffness", self.stiffness),
-            ("measure.start", self.settling),
-        ]
-        if self.method.base is not None:
-            settings.append(("base.model", self.method.base))
+        settings = shaken(self.method, self.stiffness, self.gamma, seed, self.settling)
         whole = float(self.settling + self.observed)
-        return Run("packing", self.method.engine, whole, whole, tuple(settings))
+        return Run("packing", self.method.engine, whole, whole, settings)
 
 
 def soft(stiffness: float, gamma: float) -> Point:

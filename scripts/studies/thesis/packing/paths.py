@@ -16,7 +16,7 @@ from jostle_lab.statistics.rotation import RPM
 from jostle_lab.tables import Table
 from studies.thesis.packing.path_statements import event_driven_statements, molecular_statements
 from studies.thesis.packing.paths_found import Paths
-from studies.thesis.packing.runs import DISKS, FREQUENCY, GRAVITY, MOLECULAR, RANDOM_PHASE, Method, amplitude
+from studies.thesis.packing.runs import DISKS, MOLECULAR, RANDOM_PHASE, Method, shaken
 
 STIFFNESS = 1e4
 SEED = 1
@@ -38,18 +38,9 @@ class Shaking:
 
     def run(self) -> Run:
         """Its run."""
-        settings: list[tuple[str, float]] = [
-            ("seed", SEED),
-            ("gravity", GRAVITY),
-            ("drive.amplitude", amplitude(self.gamma)),
-            ("drive.frequency", FREQUENCY),
-            ("contact.normal_stiffness", STIFFNESS),
-            ("measure.start", self.settling),
-        ]
-        if self.method.base is not None:
-            settings.append(("base.model", self.method.base))
+        settings = shaken(self.method, STIFFNESS, self.gamma, SEED, self.settling)
         whole = float(self.settling + self.frame * self.frames)
-        return Run("packing", self.method.engine, whole, float(self.frame), tuple(settings))
+        return Run("packing", self.method.engine, whole, float(self.frame), settings)
 
     def paths(self, table: Table) -> Paths:
         """What the run shows."""

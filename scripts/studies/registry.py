@@ -9,6 +9,8 @@ from jostle_lab.statements import Product
 Maker = Callable[[Laboratory, bool, int | None], Product]
 
 MODULES = {
+    "2.2": "methods.parameters",
+    "2.3.3": "methods.base_sampling",
     "3.5": "packing.paths:molecular_dynamics",
     "3.6": "packing.mean_square",
     "3.7": "packing.steadiness",

@@ -100,6 +100,7 @@ def draw(found: Points) -> Figure:
         _bars(panel, gammas, lasting, part)
         panel.set(xlabel=r"$\Gamma$", ylabel=r"$\langle\bar\omega^2\rangle$ [RPM$^2$]")
     mosaic["linear"].set_ylim(0.0, None)
+    mosaic["linear"].legend()
     mosaic["log"].set(xscale="log", yscale="log")
     _laws(mosaic["log"], found)
     mosaic["log"].legend(loc="lower right")
@@ -111,6 +112,8 @@ def draw(found: Points) -> Figure:
     _bars(panel, np.array(inside) - 1.0, shifted, {**whole, "label": "whole record"})
     guide = np.array([0.2, 9.0])
     panel.plot(guide, shifted[-1].mean * (guide / 9.0) ** PRINTED["middle"], "k-.", lw=1.0, label="slope 0.99 (P)")
+    fit = middle_exponent(found)
+    panel.plot(*_line(fit, inside, shifted, 1.0), "-", color="0.55", lw=1.0, label=f"slope {fit.value:.2f} (ours)")
     panel.set(xscale="log", yscale="log", xlabel=r"$\Gamma - 1$")
     panel.set_ylabel(r"$\langle\bar\omega^2\rangle - \omega_c$ [RPM$^2$]")
     panel.legend()
@@ -126,8 +129,19 @@ def _laws(panel: Axes, found: Points) -> None:
     one = found[0.8].estimate("mean_square").mean
     low = np.array([min(found), 0.8])
     panel.plot(low, one * (low / 0.8) ** PRINTED["low"], "k--", lw=1.0, label="slope 3.85 (P)")
+    gammas = [g for g in found if 0.25 < g <= LOW[1]]
+    fit = low_exponent(found, start=0.25)
+    points = [found[g].estimate("mean_square") for g in gammas]
+    panel.plot(*_line(fit, gammas, points, 0.0), "-", color="0.55", lw=1.0, label=f"slope {fit.value:.2f} (ours)")
     for place in (1.0, 10.0):
         panel.axvline(place, color="0.6", lw=0.7, ls=":")
+
+
+def _line(fit: Fitted, gammas: Sequence[float], points: Sequence[Estimate], critical: float) -> tuple[Numbers, Numbers]:
+    """A fitted power through the middle of its points, in log-log."""
+    x = np.array(gammas) - critical
+    middle = float(np.mean(np.log([p.mean for p in points]) - fit.value * np.log(x)))
+    return x, np.asarray(np.exp(middle) * x**fit.value)
 
 
 def statements(found: Points) -> list[Statement]:

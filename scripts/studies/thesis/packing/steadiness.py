@@ -17,7 +17,7 @@ from studies.thesis.packing.scaling import exponent, extremum
 
 SHOWN = (0.3, 4.0, 20.0, 29.0)
 """Gamma of the four histograms."""
-STILL, STEADY = 0.1, 0.9
+STILL, STEADY = 0.05, 0.95
 """rho^2 below which a disk counts with the group near zero, and above which with that near one."""
 BINS = 20
 

@@ -168,7 +168,7 @@ def compared(factor: float, scatter: float) -> Comparison:
                 values = own * common * generator.lognormal(0.0, scatter, PACKINGS)
                 found[method, k, gamma] = ensemble(Point(method, k, gamma, 1, 1, PACKINGS), values)
                 cost[method, k, gamma] = 1.0 if method is MOLECULAR else 0.1 / gamma
-    disks = {key: generator.normal(0.0, 1.0, (PACKINGS, 60)) for key in found if key[2] == 3.0}
+    disks = {key: generator.normal(0.0, 1.0, (PACKINGS, 60)) for key in found if key[2] == 2.0}
     return Comparison(found, disks, {}, cost)
 
 

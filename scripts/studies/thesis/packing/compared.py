@@ -21,7 +21,7 @@ from studies.thesis.packing.ensemble import (
 from studies.thesis.packing.runs import MOLECULAR, MOVING, RANDOM_PHASE, Method
 
 QUICK_GAMMAS = (2.0, 10.0)
-FOLLOWED = (3.0, 10.0)
+FOLLOWED = (2.0, 10.0)
 """Gamma at which the disks are compared one by one."""
 
 Key = tuple[Method, float, float]

@@ -22,12 +22,16 @@ GAMMAS = (
     *(10.0, 12.0, 16.0, 20.0, 25.0, 29.0),
 )
 """Of molecular dynamics at k_n = 1e4 N/m; P goes from 0.1 to 29."""
-STIFF_GAMMAS = (0.2, 0.4, 0.6, 0.8, 0.9, 1.0, 1.2, 2.0, 3.0, 5.0, 10.0, 20.0)
-"""Of molecular dynamics with stiffer disks."""
 EVENT_GAMMAS = (2.0, 3.0, 5.0, 10.0, 20.0, 29.0)
 """Of event-driven dynamics."""
 STIFFNESSES = (1e4, 1e5, 1e6)
 """k_n [N/m] of P 3.2."""
+SOFT_GAMMAS = {
+    1e4: GAMMAS,
+    1e5: (0.2, 0.4, 0.6, 0.8, 0.9, 1.0, 1.2, 2.0, 3.0, 5.0, 10.0, 20.0),
+    1e6: (0.4, 0.8, 0.9, 1.0, 1.2, 2.0, 5.0, 10.0, 20.0),
+}
+"""Of molecular dynamics, by stiffness: the stiffer, the more a second costs."""
 PACKINGS, EVENT_PACKINGS = 25, 100
 
 
@@ -76,7 +80,7 @@ def hard_at_length(gamma: float) -> Point:
 
 def soft_points(stiffness: float) -> list[Point]:
     """All Gamma of molecular dynamics at a stiffness."""
-    return [soft(stiffness, gamma) for gamma in (GAMMAS if stiffness == 1e4 else STIFF_GAMMAS)]
+    return [soft(stiffness, gamma) for gamma in SOFT_GAMMAS[stiffness]]
 
 
 def compared_gammas(stiffness: float) -> list[float]:

@@ -90,13 +90,16 @@ def ratio(found: Found, above_k: float, below_k: float, gamma: float) -> Estimat
     return bootstrap_ratio(one[:count], other[:count])
 
 
+def ratios(found: Found, above_k: float, below_k: float) -> dict[float, Estimate]:
+    """The ratio at every Gamma that both stiffnesses have."""
+    shared = [g for g in gammas(found, above_k) if (below_k, g) in found]
+    return {g: ratio(found, above_k, below_k, g) for g in shared}
+
+
 def statements(found: Found) -> list[Statement]:
     """What P 3.2 says of this figure."""
-    shared = [g for g in gammas(found, 1e5) if (1e4, g) in found and (1e6, g) in found]
-    low = [g for g in shared if g < 1.0]
-    softer = {g: ratio(found, 1e5, 1e4, g) for g in shared}
-    stiffer = {g: ratio(found, 1e6, 1e5, g) for g in shared}
-    whole = {g: ratio(found, 1e6, 1e4, g) for g in shared}
+    softer, stiffer, whole = (ratios(found, *pair) for pair in ((1e5, 1e4), (1e6, 1e5), (1e6, 1e4)))
+    low = [g for g in stiffer if g < 1.0]
 
     def text(ratios: dict[float, Estimate]) -> str:
         return ", ".join(f"{g:g}: {e}" for g, e in ratios.items())

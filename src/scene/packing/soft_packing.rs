@@ -148,7 +148,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         ]
     }
 
-    /// The force that is no mean over a step: zero at the start unless disks overlap.
+    /// The force that is no mean over a step: zero at the start unless disks overlap, which the damping then feels too.
     fn force_now(at_start: &AtStart) -> Row<Self> {
         let description =
             "Vertical force of the disks on the base now, up; base.reaction_force is its mean over the last step";
@@ -161,7 +161,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         );
         force
             .in_terminal(TERMINAL, "reaction_force_now")
-            .depending_on(&at_start.touching)
+            .depending_on(&names(&[&at_start.touching, &at_start.base_velocity]))
     }
 
     /// Energies, and the closed contacts. Whether disks touch at the start, and how much energy that is, is a matter of

@@ -36,7 +36,7 @@ class Comparison:
     turning: dict[Key, Numbers]
     """Mean angular velocity of each disk [RPM], shape (packings, disks); at some Gamma."""
     long: dict[float, Ensemble]
-    """Hard disks for 1000 s, by Gamma."""
+    """Hard disks at length, by Gamma."""
     cost: dict[Key, float]
     """Processor time of a simulated second of one packing [s]."""
 

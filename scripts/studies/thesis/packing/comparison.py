@@ -36,7 +36,7 @@ def make(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Prod
             effort(points),
             "errors by drawing packings, ratios packing by packing over records of the same length",
             *(
-                [f"event-driven at k_n = 1e4 N/m at P's effort: {effort([e.point for e in compared.long.values()])}"]
+                [f"event-driven at k_n = 1e4 N/m at length: {effort([e.point for e in compared.long.values()])}"]
                 if compared.long
                 else []
             ),
@@ -78,7 +78,7 @@ def draw(compared: Comparison) -> Figure:
             "ms": 4,
             "lw": 0.8,
             "capsize": 1.5,
-            "label": "ED, 1000 s, $k_n = 10^4$ N/m",
+            "label": "ED, 200 s, $k_n = 10^4$ N/m",
         }
         for name in ("linear", "log"):
             mosaic[name].errorbar(

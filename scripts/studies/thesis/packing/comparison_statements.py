@@ -80,7 +80,7 @@ def _maxima(compared: Comparison) -> list[Statement]:
         found.append(_maximum(name, gammas, [e.mean_square for e in ensembles]))
     if compared.long:
         ensembles = list(compared.long.values())
-        found.append(_maximum("ED, 1000 s, k_n = 1e4", list(compared.long), [e.mean_square for e in ensembles]))
+        found.append(_maximum("ED, 200 s, k_n = 1e4", list(compared.long), [e.mean_square for e in ensembles]))
     return found
 
 

@@ -280,3 +280,22 @@ fn collision_counts_of_the_first_quarter_second_are_pinned() {
     }
     assert_eq!((counted::<WedgeMap>(), counted::<WedgeEventDrivenOnSine>()), (15, 14));
 }
+
+/// P: "Rejection events are unusual" where disks bounce well. Each impact of the map keeps one draw, and the counts come back
+/// with a state.
+#[test]
+fn rejections_are_few_in_a_wedge_that_bounces_well() {
+    for (restitution, most) in [(0.9, 0.03), (0.3, 0.5)] {
+        let mut map = wedge::<WedgeMap>(&[("collision.restitution", restitution)]);
+        map.advance_to(50.0).unwrap();
+        let counts = |map: &Simulation<WedgeMap>| {
+            ["base.draws", "base.rejected_draws", "collisions"].map(|name| map.integer(name).unwrap())
+        };
+        let (saved, [draws, rejected, collisions]) = (map.to_bytes().unwrap(), counts(&map));
+        println!("e_n {restitution}: {rejected} of {draws} draws rejected");
+        assert!(draws - rejected == collisions && (rejected as f64) < most * draws as f64);
+        map.advance_to(60.0).unwrap();
+        map.restore_bytes(&saved).unwrap();
+        assert_eq!(counts(&map), [draws, rejected, collisions]);
+    }
+}

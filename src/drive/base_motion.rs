@@ -53,6 +53,28 @@ pub struct AtRandomPhase {
     pub phase: RandomPhase,
     /// Source of random phases.
     pub generator: Pcg64,
+    /// Velocities drawn so far.
+    pub counts: DrawCounts,
+}
+
+/// How many velocities a base of random phase has drawn: how rare rejections are says whether the approximation holds (P 2.3.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct DrawCounts {
+    /// All draws, those rejected among them.
+    pub draws: u64,
+    /// Draws after which the disk would still have moved into the wall, so that another followed.
+    pub rejected: u64,
+}
+
+impl AtRandomPhase {
+    /// A base that has drawn nothing yet.
+    pub fn new(phase: RandomPhase, generator: Pcg64) -> Self {
+        Self {
+            phase,
+            generator,
+            counts: DrawCounts::default(),
+        }
+    }
 }
 
 impl BaseMotion for AtRandomPhase {
@@ -74,7 +96,18 @@ impl BaseMotion for AtRandomPhase {
         normal_up: f64,
         leaves: impl Fn(f64) -> bool,
     ) -> Option<f64> {
-        self.phase
-            .sample_leaving(&mut self.generator, normal_velocity, normal_up, leaves)
+        let Self {
+            phase,
+            generator,
+            counts,
+        } = self;
+        // Saturating, since a state that is read back may hold any count.
+        let counted = |velocity: f64| {
+            let leaves = leaves(velocity);
+            counts.draws = counts.draws.saturating_add(1);
+            counts.rejected = counts.rejected.saturating_add(u64::from(!leaves));
+            leaves
+        };
+        phase.sample_leaving(generator, normal_velocity, normal_up, counted)
     }
 }

@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::drive::{AtRandomPhase, Motion, Sine};
+use crate::drive::{AtRandomPhase, DrawCounts, Motion, Sine};
 use crate::engine::event_driven::{Counts, EventDrivenState, EventDrivenStop, Moving, Walls};
 use crate::engine::{DiskMotion, Engine, WorkBudget};
 use crate::geometry::Disk;
-use crate::scene::{Result, Row, Values};
+use crate::scene::{Result, Row, Unit, Values, random_phase_base};
 
 use super::hard::{HardDisks, HardEngine};
 use super::initial_packing;
@@ -47,6 +47,16 @@ pub enum EitherState {
     RandomPhase(EventDrivenState<Walls<AtRandomPhase>>),
     /// Of the moving bottom.
     Moving(EventDrivenState<Walls<Moving<Sine>>>),
+}
+
+impl EitherBase {
+    /// Velocities that the base has drawn; none if it moves.
+    fn draw_counts(&self) -> DrawCounts {
+        match self {
+            Self::RandomPhase(run) => run.state().boundary.base.counts,
+            Self::Moving(_) => DrawCounts::default(),
+        }
+    }
 }
 
 macro_rules! either {
@@ -106,6 +116,17 @@ impl HardEngine for EitherBase {
         let mut rows = <HardDisks<AtRandomPhase> as HardEngine>::parameters();
         rows.push(base_model());
         rows
+    }
+
+    fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>> {
+        let [draws, rejected] = random_phase_base::DRAW_COUNTS;
+        let count = |(name, description): (&str, &str), read: fn(&M) -> f64| {
+            Row::output(name, Unit::ONE, 1e4, description, read)
+        };
+        vec![
+            count(draws, |packing| packing.as_ref().draw_counts().draws as f64),
+            count(rejected, |packing| packing.as_ref().draw_counts().rejected as f64),
+        ]
     }
 
     fn from_values(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self> {

@@ -29,6 +29,10 @@ pub trait HardEngine: Engine<Stop = EventDrivenStop> {
 
     /// Further parameters.
     fn parameters<M>() -> Vec<Row<M>>;
+    /// Further outputs.
+    fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>> {
+        Vec::new()
+    }
     /// Disks at rest at `start_time` \[s\].
     ///
     /// # Errors
@@ -62,10 +66,7 @@ impl HardBase for AtRandomPhase {
         let peak_velocity = sine.amplitude * std::f64::consts::TAU * sine.frequency;
         // Another stream than that of the radii, which has the seed itself.
         let generator = Pcg64::seed_from_u64((values.integer("seed") as u64) ^ 0x9e37_79b9_7f4a_7c15);
-        Ok(Self {
-            phase: RandomPhase { peak_velocity },
-            generator,
-        })
+        Ok(Self::new(RandomPhase { peak_velocity }, generator))
     }
 
     fn set_target(&mut self, _time: f64, _duration: f64, _values: &Values) -> bool {

@@ -11,7 +11,7 @@ use crate::drive::{AtRandomPhase, FirstHit, Motion, RandomPhase, Sine};
 use crate::engine::DiskMotion;
 use crate::engine::wedge::{DiskInWedge, NO_PROGRESS, Side, Start, Stuck, WedgeSetup, WedgeStop};
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::{Error, Kind, Result, Row, Unit, Values, Warning, work_limit};
+use crate::scene::{Error, Kind, Result, Row, Unit, Values, Warning, random_phase_base, work_limit};
 
 use super::engine::{AtStart, SpecificEnergies, WedgeEngine};
 use super::rows::{self, NAME};
@@ -158,7 +158,16 @@ impl WedgeEngine for Map {
     }
 
     fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>> {
-        vec![collisions(|scene: &M| counted(scene.as_ref().state().sums.collisions))]
+        let [draws, rejected] = random_phase_base::DRAW_COUNTS;
+        vec![
+            collisions(|scene: &M| counted(scene.as_ref().state().sums.collisions)),
+            Row::count_output(draws.0, draws.1, |scene: &M| {
+                counted(scene.as_ref().state().walls.counts.draws)
+            }),
+            Row::count_output(rejected.0, rejected.1, |scene: &M| {
+                counted(scene.as_ref().state().walls.counts.rejected)
+            }),
+        ]
     }
 
     fn from_values(start_time: f64, values: &Values) -> Result<Self> {
@@ -168,7 +177,7 @@ impl WedgeEngine for Map {
         let phase = RandomPhase {
             peak_velocity: TAU * values.real("drive.frequency") * amplitude,
         };
-        let (setup, walls) = (setup(values, 0.0), AtRandomPhase { phase, generator });
+        let (setup, walls) = (setup(values, 0.0), AtRandomPhase::new(phase, generator));
         let start = Start {
             time: start_time,
             height,

@@ -197,3 +197,39 @@ fn rejected_draws_are_those_of_lines_thrown_at_random() {
     moving.advance_to(0.1).unwrap();
     assert_eq!(moving.real("base.draws").unwrap(), 0.0);
 }
+
+/// On a sawtooth each impact turns |v| into `e_n |v| + (1 + e_n) A omega`: the parabolas that follow each other are known.
+#[test]
+fn a_disk_on_a_sawtooth_bounces_as_the_closed_form_says() {
+    let (restitution, gravity) = (0.6, 9.8);
+    let lift = (1.0 + restitution) * Sine::amplitude_of(4.0, 80.0, gravity) * TAU * 80.0;
+    let mut disk = bouncing(restitution, &[("base.profile", 2.0), ("initial.settled", 0.0)]);
+    // It starts a little above the floor, and meets it first when it has fallen that far.
+    let gap = disk.real("disk.y[1]").unwrap() - 0.015;
+    let fall = (2.0 * gap / gravity).sqrt();
+    let (mut speed, mut time) = (restitution * gravity * fall + lift, fall);
+    for impacts in 1..40 {
+        let flight = 2.0 * speed / gravity;
+        for part in [0.25, 0.9] {
+            let since = part * flight;
+            disk.advance_to(time + since).unwrap();
+            let height = 0.015 + since * (speed - 0.5 * gravity * since);
+            let off = disk.real("disk.y[1]").unwrap() - height;
+            assert!(off.abs() < 1e-10, "impact {impacts}: {off:e} m off");
+            assert_eq!(disk.real("collisions").unwrap(), f64::from(impacts));
+        }
+        (speed, time) = (restitution * speed + lift, time + flight);
+    }
+    // The energy balance counts what this base gives.
+    let [input, residual] = ["energy.input", "energy.residual"].map(|name| disk.real(name).unwrap());
+    assert!(residual.abs() < 1e-11 * input);
+    assert_eq!(disk.real("base.draws").unwrap(), 0.0);
+    let given = [("base.profile", 2_i64.into())];
+    let refusal = Simulation::<HardPackingOnSine>::new(&[("disks", 1)], &given)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        refusal.starts_with("base.profile = sawtooth") && refusal.contains("base.model"),
+        "{refusal}"
+    );
+}

@@ -46,7 +46,17 @@ impl<D: FirstHit> BaseMotion for D {
     }
 }
 
-/// Base that stays in place and gives each impact the velocity of a sine at a random phase (P 2.3.3).
+/// How a base that stays in place would move, which decides its velocity at an impact (P 2.3.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum BaseProfile {
+    /// A sine, met at a random phase.
+    Sine,
+    /// A sawtooth that rises evenly and falls at once: whatever falls on it meets it rising, with the largest velocity of the
+    /// sine. For walls that face up: one that hangs over would be met where the base falls.
+    Sawtooth,
+}
+
+/// Base that stays in place and gives each impact the velocity of a sine at a random phase, or of a sawtooth (P 2.3.3).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AtRandomPhase {
     /// Distribution of the velocity.
@@ -55,6 +65,8 @@ pub struct AtRandomPhase {
     pub generator: Pcg64,
     /// Velocities drawn so far.
     pub counts: DrawCounts,
+    /// What it lends its velocity from.
+    pub profile: BaseProfile,
 }
 
 /// How many velocities a base of random phase has drawn: how rare rejections are says whether the approximation holds (P 2.3.3).
@@ -67,13 +79,20 @@ pub struct DrawCounts {
 }
 
 impl AtRandomPhase {
-    /// A base that has drawn nothing yet.
+    /// A sine that has drawn nothing yet.
     pub fn new(phase: RandomPhase, generator: Pcg64) -> Self {
         Self {
             phase,
             generator,
             counts: DrawCounts::default(),
+            profile: BaseProfile::Sine,
         }
+    }
+
+    /// The same with another profile.
+    #[must_use]
+    pub fn with_profile(self, profile: BaseProfile) -> Self {
+        Self { profile, ..self }
     }
 }
 
@@ -100,7 +119,12 @@ impl BaseMotion for AtRandomPhase {
             phase,
             generator,
             counts,
+            profile,
         } = self;
+        if *profile == BaseProfile::Sawtooth {
+            let velocity = phase.peak_velocity;
+            return leaves(velocity).then_some(velocity);
+        }
         // Saturating, since a state that is read back may hold any count.
         let counted = |velocity: f64| {
             let leaves = leaves(velocity);

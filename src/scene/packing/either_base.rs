@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::drive::{AtRandomPhase, DrawCounts, Motion, Sine};
+use crate::drive::{AtRandomPhase, BaseProfile, DrawCounts, Motion, Sine};
 use crate::engine::event_driven::{Counts, EventDrivenState, EventDrivenStop, Moving, Walls};
 use crate::engine::{DiskMotion, Engine, WorkBudget};
 use crate::geometry::Disk;
-use crate::scene::{Result, Row, Unit, Values, random_phase_base};
+use crate::scene::{Error, Result, Row, Unit, Values, random_phase_base};
 
 use super::hard::{HardDisks, HardEngine};
 use super::initial_packing;
@@ -29,6 +29,23 @@ fn base_model<M>() -> Row<M> {
         2,
         "What the bottom of the box does",
     )
+}
+
+fn stays_in_place(values: &Values) -> bool {
+    values.integer("base.model") == RANDOM_PHASE
+}
+
+/// Refuses a profile that would change nothing.
+fn check_profile_of_moving_base(values: &Values) -> Result<()> {
+    match random_phase_base::profile(values) {
+        BaseProfile::Sine => Ok(()),
+        BaseProfile::Sawtooth => Err(Error::parameter(
+            random_phase_base::PROFILE,
+            "sawtooth",
+            "sine with base.model moving, whose bottom has the velocity of its own motion",
+            "Set base.model random_phase, or leave base.profile sine.",
+        )),
+    }
 }
 
 /// Sine base in either model, as the parameter `base.model` says.
@@ -114,7 +131,7 @@ impl HardEngine for EitherBase {
 
     fn parameters<M>() -> Vec<Row<M>> {
         let mut rows = <HardDisks<AtRandomPhase> as HardEngine>::parameters();
-        rows.push(base_model());
+        rows.extend([base_model(), random_phase_base::profile_parameter()]);
         rows
     }
 
@@ -130,16 +147,17 @@ impl HardEngine for EitherBase {
     }
 
     fn from_values(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self> {
-        Ok(if Self::draws(values) {
+        Ok(if stays_in_place(values) {
             initial_packing::check_walls_of_random_phase(values)?;
             Self::RandomPhase(Box::new(HardEngine::from_values(disks, masses, start_time, values)?))
         } else {
+            check_profile_of_moving_base(values)?;
             Self::Moving(Box::new(HardEngine::from_values(disks, masses, start_time, values)?))
         })
     }
 
     fn draws(values: &Values) -> bool {
-        values.integer("base.model") == RANDOM_PHASE
+        stays_in_place(values) && random_phase_base::profile(values) == BaseProfile::Sine
     }
 
     fn work_done(&self) -> u64 {

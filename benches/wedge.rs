@@ -108,12 +108,12 @@ fn scene<M: Model>(seconds: f64) {
 
 fn main() {
     for restitution in [0.9, 0.5] {
-        let walls = AtRandomPhase {
-            phase: RandomPhase {
+        let walls = AtRandomPhase::new(
+            RandomPhase {
                 peak_velocity: BASE.amplitude * BASE.frequency * TAU,
             },
-            generator: Pcg64::seed_from_u64(1),
-        };
+            Pcg64::seed_from_u64(1),
+        );
         bounces(&format!("map, e_n {restitution}"), law(restitution), walls);
         let floored = VelocityFloor::new(law(restitution), 1e-4).expect("a legal floor");
         bounces(&format!("moving wedge, e_n {restitution}"), floored, BASE);

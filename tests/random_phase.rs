@@ -4,7 +4,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use jostle::drive::{RandomPhase, leaves_wall};
+use jostle::drive::{AtRandomPhase, BaseMotion, Motion, RandomPhase, leaves_wall};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
@@ -160,4 +160,31 @@ fn draws_again_until_the_disk_leaves() {
         assert_eq!(v_b, draw(&mut again));
     }
     assert_eq!(base.sample_leaving(&mut generator, 0.0, 1.0, |v_b| v_b > 0.0), None);
+}
+
+/// A draw is rejected if `v_b <= e_n v_n / (1 + e_n)`, whose probability is that of the corrected P 2.40. There are
+/// none if `e_n x >= 1 + e_n`, as for most impacts of a disk that bounces well: `x` is some `1 / (1 - e_n)`.
+#[test]
+fn rejected_draws_are_as_frequent_as_the_density_says() {
+    let impacts = 100_000_u32;
+    for (seed, ratio) in (1..).zip([0.01, 0.2, 0.5, 1.0, 1.5, 3.0]) {
+        for restitution in [0.0, 0.1, 0.5, 0.9] {
+            let phase = RandomPhase { peak_velocity: 1.0 };
+            let mut base = AtRandomPhase::new(phase, Pcg64::seed_from_u64(seed));
+            for _ in 0..impacts {
+                let leaves = |v_b: f64| leaves_wall(restitution, -ratio, v_b, 1.0);
+                base.velocity_at_impact(Motion::default(), -ratio, 1.0, leaves).unwrap();
+            }
+            let slowest = -restitution * ratio / (1.0 + restitution);
+            let rejected = distribution(ratio, visible(ratio), slowest);
+            let draws = base.counts.draws as f64;
+            let scatter = (rejected * (1.0 - rejected) / draws).sqrt();
+            let found = base.counts.rejected as f64 / draws;
+            assert!(
+                (found - rejected).abs() <= 4.0 * scatter + 1e-12,
+                "x {ratio}, e_n {restitution}: {found} for {rejected}"
+            );
+            assert_eq!(base.counts.draws - base.counts.rejected, u64::from(impacts));
+        }
+    }
 }

@@ -280,3 +280,58 @@ fn collision_counts_of_the_first_quarter_second_are_pinned() {
     }
     assert_eq!((counted::<WedgeMap>(), counted::<WedgeEventDrivenOnSine>()), (15, 14));
 }
+
+/// P: "Rejection events are unusual" where disks bounce well. Each impact of the map keeps one draw, and the counts come back
+/// with a state.
+#[test]
+fn rejections_are_few_in_a_wedge_that_bounces_well() {
+    for (restitution, most) in [(0.9, 0.03), (0.3, 0.5)] {
+        let mut map = wedge::<WedgeMap>(&[("collision.restitution", restitution)]);
+        map.advance_to(50.0).unwrap();
+        let counts = |map: &Simulation<WedgeMap>| {
+            ["base.draws", "base.rejected_draws", "collisions"].map(|name| map.integer(name).unwrap())
+        };
+        let (saved, [draws, rejected, collisions]) = (map.to_bytes().unwrap(), counts(&map));
+        println!("e_n {restitution}: {rejected} of {draws} draws rejected");
+        assert!(draws - rejected == collisions && (rejected as f64) < most * draws as f64);
+        map.advance_to(60.0).unwrap();
+        map.restore_bytes(&saved).unwrap();
+        assert_eq!(counts(&map), [draws, rejected, collisions]);
+    }
+}
+
+/// P 2.3.3: with a sawtooth instead of the sine the disk turns as before but for a constant factor, some 3.4 here. There is no
+/// rotation without tilt, and a wall that hangs over is refused.
+#[test]
+fn the_map_on_a_sawtooth_turns_as_on_a_sine_but_for_a_factor() {
+    let at = |tilt: f64, profile: f64| {
+        let changes = [
+            ("wedge.tilt", tilt.to_radians()),
+            ("base.profile", profile),
+            ("measure.start", 10.0),
+        ];
+        let mut map = wedge::<WedgeMap>(&changes);
+        map.advance_to(600.0).unwrap();
+        assert!((map.integer("base.draws").unwrap() == 0) == (profile == 2.0));
+        scaled(&map)
+    };
+    for tilt in [-9.0, 0.0, 6.0, 9.0, 15.0, 21.0, 27.0] {
+        let [(sine, spread), (sawtooth, error)] = [1.0, 2.0].map(|profile| at(tilt, profile));
+        println!("{tilt} degrees: sine {sine:.3}, sawtooth {sawtooth:.3} +- {error:.3}");
+        let off = (sawtooth - 3.4 * sine).abs();
+        assert!(
+            off < 4.0 * error.hypot(3.4 * spread) + 0.15 * sawtooth.abs(),
+            "{tilt} degrees"
+        );
+    }
+    let given = [
+        ("base.profile", 2_i64.into()),
+        ("wedge.aperture", 1.2.into()),
+        ("wedge.tilt", 0.7.into()),
+    ];
+    let refusal = Simulation::<WedgeMap>::new(&[], &given).unwrap_err().to_string();
+    assert!(
+        refusal.starts_with("base.profile = sawtooth") && refusal.contains("hangs over"),
+        "{refusal}"
+    );
+}

@@ -46,13 +46,54 @@ impl<D: FirstHit> BaseMotion for D {
     }
 }
 
-/// Base that stays in place and gives each impact the velocity of a sine at a random phase (P 2.3.3).
+/// How a base that stays in place would move, which decides its velocity at an impact (P 2.3.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum BaseProfile {
+    /// A sine, met at a random phase.
+    Sine,
+    /// A sawtooth that rises evenly and falls at once: whatever falls on it meets it rising, with the largest velocity of the
+    /// sine. For walls that face up: one that hangs over would be met where the base falls.
+    Sawtooth,
+}
+
+/// Base that stays in place and gives each impact the velocity of a sine at a random phase, or of a sawtooth (P 2.3.3).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AtRandomPhase {
     /// Distribution of the velocity.
     pub phase: RandomPhase,
     /// Source of random phases.
     pub generator: Pcg64,
+    /// Velocities drawn so far.
+    pub counts: DrawCounts,
+    /// What it lends its velocity from.
+    pub profile: BaseProfile,
+}
+
+/// How many velocities a base of random phase has drawn: how rare rejections are says whether the approximation holds (P 2.3.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct DrawCounts {
+    /// All draws, those rejected among them.
+    pub draws: u64,
+    /// Draws after which the disk would still have moved into the wall, so that another followed.
+    pub rejected: u64,
+}
+
+impl AtRandomPhase {
+    /// A sine that has drawn nothing yet.
+    pub fn new(phase: RandomPhase, generator: Pcg64) -> Self {
+        Self {
+            phase,
+            generator,
+            counts: DrawCounts::default(),
+            profile: BaseProfile::Sine,
+        }
+    }
+
+    /// The same with another profile.
+    #[must_use]
+    pub fn with_profile(self, profile: BaseProfile) -> Self {
+        Self { profile, ..self }
+    }
 }
 
 impl BaseMotion for AtRandomPhase {
@@ -74,7 +115,23 @@ impl BaseMotion for AtRandomPhase {
         normal_up: f64,
         leaves: impl Fn(f64) -> bool,
     ) -> Option<f64> {
-        self.phase
-            .sample_leaving(&mut self.generator, normal_velocity, normal_up, leaves)
+        let Self {
+            phase,
+            generator,
+            counts,
+            profile,
+        } = self;
+        if *profile == BaseProfile::Sawtooth {
+            let velocity = phase.peak_velocity;
+            return leaves(velocity).then_some(velocity);
+        }
+        // Saturating, since a state that is read back may hold any count.
+        let counted = |velocity: f64| {
+            let leaves = leaves(velocity);
+            counts.draws = counts.draws.saturating_add(1);
+            counts.rejected = counts.rejected.saturating_add(u64::from(!leaves));
+            leaves
+        };
+        phase.sample_leaving(generator, normal_velocity, normal_up, counted)
     }
 }

@@ -14,7 +14,7 @@ mod sine;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-pub use base_motion::{AtRandomPhase, BaseMotion};
+pub use base_motion::{AtRandomPhase, BaseMotion, BaseProfile, DrawCounts};
 pub use extrapolation::{Contradiction, Degree, Extrapolation, InputHistory, InputSample};
 pub use first_hit::FirstHit;
 pub use follows_input::FollowsInput;

@@ -55,7 +55,7 @@ impl RandomPhase {
         generator: &mut impl Rng,
         normal_velocity: f64,
         normal_up: f64,
-        leaves: impl Fn(f64) -> bool,
+        mut leaves: impl FnMut(f64) -> bool,
     ) -> Option<f64> {
         (0..MOST_DRAWS)
             .map(|_| self.sample(generator, normal_velocity, normal_up))

@@ -8,7 +8,7 @@ pub mod wall;
 
 pub use disk::Disk;
 pub use nalgebra::Vector2;
-pub use sawtooth::{Clearance, SawtoothProfile};
+pub use sawtooth::{Clearance, SawtoothProfile, ToothPart};
 pub use time_of_impact::{Flight, disk_disk, disk_wall};
 pub use wall::Wall;
 

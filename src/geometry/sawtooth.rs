@@ -38,6 +38,17 @@ struct Side {
     normal: Vector2<f64>,
 }
 
+/// What a point is nearest to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ToothPart {
+    /// The side of horizontal extent a w, which faces left.
+    LeftSide,
+    /// The other side.
+    RightSide,
+    /// The arc that rounds the tip, or the apex if that is sharp.
+    Tip,
+}
+
 /// Where a point is from a tooth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clearance {
@@ -45,6 +56,8 @@ pub struct Clearance {
     pub distance: f64,
     /// Unit normal, from the tooth to the point.
     pub normal: Vector2<f64>,
+    /// What the normal stands on.
+    pub part: ToothPart,
 }
 
 impl SawtoothProfile {
@@ -135,12 +148,13 @@ impl SawtoothProfile {
     #[inline]
     pub fn clearance(&self, tooth: i64, point: Vector2<f64>) -> Clearance {
         let from = point - Vector2::new(tooth as f64 * self.width + self.centre.x, self.centre.y);
-        for Side { down, normal } in &self.sides {
+        for (Side { down, normal }, part) in self.sides.iter().zip([ToothPart::LeftSide, ToothPart::RightSide]) {
             let distance = from.dot(normal);
             if distance > 0.0 && from.dot(down) > 0.0 {
                 return Clearance {
                     distance: distance - self.tip_radius,
                     normal: *normal,
+                    part,
                 };
             }
         }
@@ -148,6 +162,7 @@ impl SawtoothProfile {
         Clearance {
             distance: distance - self.tip_radius,
             normal: from / distance,
+            part: ToothPart::Tip,
         }
     }
 }
@@ -217,12 +232,13 @@ mod tests {
     fn flat_and_sharp_profiles_have_exact_distances() {
         let flat = SawtoothProfile::new(6e-3, 0.0, 0.1, 4e-4).unwrap();
         for x in [-1.0, 0.0, 6e-4, 0.3] {
-            let Clearance { distance, normal } = flat.clearance(0, Vector2::new(x, 2e-3));
+            let Clearance { distance, normal, .. } = flat.clearance(0, Vector2::new(x, 2e-3));
             assert!((distance - 2e-3).abs() < 1e-18 && normal[0].abs() < 1e-12 && normal[1] == 1.0);
         }
         let sharp = SawtoothProfile::new(6e-3, 4e-3, 0.5, 0.0).unwrap();
-        let Clearance { distance, normal } = sharp.clearance(2, Vector2::new(15e-3, 5e-3));
+        let Clearance { distance, normal, part } = sharp.clearance(2, Vector2::new(15e-3, 5e-3));
         assert!((distance - 1e-3).abs() < 1e-17 && (normal[1] - 1.0).abs() < 1e-12);
+        assert_eq!(part, ToothPart::Tip);
     }
 
     #[test]

@@ -68,6 +68,11 @@ impl Transport {
         self.batches.due()
     }
 
+    /// Whether the mark is past and was recorded.
+    pub fn has_begun(&self) -> bool {
+        !self.positions.is_empty()
+    }
+
     /// Takes the positions \[m\] at the time that was due, and the work \[J\] of the base so far.
     pub fn record(&mut self, positions: impl ExactSizeIterator<Item = f64>, work: f64) {
         if self.positions.is_empty() {
@@ -114,7 +119,7 @@ impl Transport {
     /// Time \[s\] since the mark, once it is past.
     fn duration(&self, time: f64) -> Option<f64> {
         let duration = time - self.mark;
-        (!self.positions.is_empty() && duration > 0.0).then_some(duration)
+        (self.has_begun() && duration > 0.0).then_some(duration)
     }
 
     /// Whether this can be the average of a run of `count` disks at `time` \[s\]: what is read back may be anything.

@@ -24,6 +24,7 @@ pub mod laws {
     mod linear_dashpot;
 }
 pub mod packing;
+mod random_phase_base;
 pub mod ratchet;
 #[cfg(feature = "toml")]
 mod recipe;

@@ -1,5 +1,6 @@
 //! Scene `ratchet`: disks in a periodic cell on a sawtooth that oscillates vertically, event-driven (F).
 
+mod averages;
 mod equations;
 mod fields;
 mod outputs;
@@ -9,12 +10,11 @@ mod start;
 
 use serde::{Deserialize, Serialize};
 
-use crate::clone_in_place::clone_in_place;
 use crate::collision::{Coulomb, VelocityFloor};
 use crate::drive::{BaseMotion, BoundedDrive, FollowsInput, Motion, Sine};
 use crate::engine::event_driven::{
-    self, Counts, EventDriven, EventDrivenState, Moving, Observer, PeriodicAcross, Sawtooth, Settings, Unobserved,
-    VibratingBase,
+    self, Counts, EventDriven, EventDrivenState, Moving, Observer, PeriodicAcross, Sawtooth, Settings, ToothImpacts,
+    Unobserved, VibratingBase,
 };
 use crate::engine::{DiskMotion, Engine};
 use crate::error::are_sane;
@@ -25,6 +25,7 @@ use super::disks_on_base::{DisksOnBase, StepReport, Stretch, complete};
 use super::hard_disks::{HardBase, HardDisksOnBase};
 use super::work_limit::WorkLimit;
 use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Values, Warning, info};
+pub use averages::Averages;
 pub use fields::Resolution;
 use refusals::{impossible_motion, refusal};
 
@@ -70,17 +71,6 @@ pub struct RatchetState<B> {
     /// Running averages.
     pub averages: Averages,
 }
-
-/// Averages since `measure.start` or the last change of `measure.mark`.
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
-pub struct Averages {
-    /// The averages.
-    pub transport: Transport,
-    /// `measure.mark` in the last communication step.
-    pub mark: f64,
-}
-
-clone_in_place!(Averages { transport, mark });
 
 impl<D> Ratchet<D>
 where
@@ -143,7 +133,11 @@ where
                 .advance_observed(due, observer, &mut budget)
                 .map_err(refusal)?;
             let positions = (0..self.masses.len()).map(|disk| self.engine.sample_at(due, disk).position.x);
-            let input = self.engine.state().counts.energy_input;
+            let EventDrivenState { counts, boundary, .. } = self.engine.state();
+            let input = counts.energy_input;
+            if !self.averages.transport.has_begun() {
+                self.averages.teeth = *boundary.tooth_impacts();
+            }
             self.averages.transport.record(positions, input);
         }
         self.engine
@@ -246,6 +240,7 @@ where
         let averages = Averages {
             transport,
             mark: values.real("measure.mark"),
+            teeth: ToothImpacts::default(),
         };
         let mut backup = RatchetState {
             engine: engine.state().clone(),
@@ -303,7 +298,11 @@ where
         let averages = &state.averages;
         let averages_hold = averages.transport.is_sound(self.masses.len(), state.report.time);
         let report_holds = state.report.is_sane() && are_sane([state.start_energy, averages.mark]);
-        let counts_hold = state.engine.boundary.ceiling_hits() <= state.engine.counts.wall_impacts;
+        let counts_hold = averages::teeth_hold(
+            &averages.teeth,
+            &state.engine.boundary,
+            state.engine.counts.wall_impacts,
+        );
         let remedy = "Restore states of the same scene, disk count and parameters only.";
         if !(averages_hold && report_holds && counts_hold && self.engine.fits(&state.engine, state.report.time)) {
             return Err(Error::state("it is not a state of this run", remedy));

@@ -101,13 +101,7 @@ fn hard_disks_stay_hard_and_inside() {
     stays_inside(sine(2.5), 2.0);
     stays_inside(sine(40.0), 2.0);
     let phase = RandomPhase { peak_velocity: 0.1 };
-    stays_inside(
-        AtRandomPhase {
-            phase,
-            generator: Pcg64::seed_from_u64(9),
-        },
-        2.0,
-    );
+    stays_inside(AtRandomPhase::new(phase, Pcg64::seed_from_u64(9)), 2.0);
 }
 
 /// Momentum: what the walls give is what the disks have, with gravity.
@@ -171,10 +165,7 @@ fn inelastic_collapse_is_reported_with_time_disk_and_partner() {
         radius: 0.02,
     }];
     let phase = RandomPhase { peak_velocity: 0.0 };
-    let base = AtRandomPhase {
-        phase,
-        generator: Pcg64::seed_from_u64(1),
-    };
+    let base = AtRandomPhase::new(phase, Pcg64::seed_from_u64(1));
     let mut engine = boxed(Smooth::new(0.5).unwrap(), base, &disk, &[[0.0; 3]]);
     let EventDrivenStop::NoHeadway(stop) = engine.advance_to(1.0).unwrap_err() else {
         panic!("too many events");

@@ -145,3 +145,94 @@ fn energy_and_momentum_balance_to_rounding() {
     assert_eq!(output("collisions.ceiling"), 0.0);
     assert!((output("layers") - 0.7).abs() < 1e-12);
 }
+
+/// What the three parts of the teeth give is the horizontal momentum that the disks get since a mark, and impacts on the parts are
+/// those on the base.
+#[test]
+fn impulses_of_sides_and_tips_are_the_momentum_of_the_disks() {
+    let mut ratchet = on_sine(20, &[("measure.start", 0.7), ("drive.frequency", 30.0)]);
+    let sums = |ratchet: &Simulation<RatchetOnSine>, what: &str| {
+        ["left_side", "right_side", "tip"].map(|part| ratchet.real(&format!("tooth.{part}_{what}")).unwrap())
+    };
+    let momentum = |ratchet: &Simulation<RatchetOnSine>| 20.0 * 1e-5 * ratchet.real("mean_velocity").unwrap();
+    let mut start = (0.0, 0.0);
+    for (index, mark) in [0.0, 0.0, 0.0, 1.0, 1.0, 2.0].into_iter().enumerate() {
+        ratchet.set("measure.mark", mark).unwrap();
+        if index == 1 || index == 3 || index == 5 {
+            start = (momentum(&ratchet), ratchet.real("collisions.base").unwrap());
+        }
+        ratchet.advance_to(0.7 + 1.3 * index as f64).unwrap();
+        let (impulses, counts) = (sums(&ratchet, "impulse"), sums(&ratchet, "impacts"));
+        if index == 0 {
+            assert!(ratchet.real("collisions.base").unwrap() > 20.0 && counts == [0.0; 3] && impulses == [0.0; 3]);
+            continue;
+        }
+        let given = momentum(&ratchet) - start.0;
+        let exchanged = impulses.iter().map(|impulse| impulse.abs()).sum::<f64>();
+        println!("{counts:?} impacts gave {impulses:?} N.s, momentum {given:e}");
+        assert!((impulses.iter().sum::<f64>() - given).abs() < 1e-12 * exchanged);
+        assert_eq!(
+            counts.iter().sum::<f64>(),
+            ratchet.real("collisions.base").unwrap() - start.1
+        );
+        assert!(counts[0] > 0.0 && counts[1] > 0.0 && counts[2] > 0.0 && impulses[0] < 0.0 && impulses[1] > 0.0);
+    }
+    assert_eq!(ratchet.real("collisions.ceiling").unwrap(), 0.0);
+}
+
+/// A smooth elastic disk thrown straight down on the middle of a side, or beside the top of a tip: the impulse is
+/// `-2 m (v.n) n_x` with the normal from the shape of F Fig. 5.
+#[test]
+fn one_disk_meets_the_part_that_lies_below_it() {
+    let [width, height, asymmetry, tip] = [6e-3_f64, 3e-3, 0.25, 4e-4];
+    let [radius, speed, mass] = [1e-3, 0.5, 2.0];
+    let sides = [asymmetry * width, (1.0 - asymmetry) * width].map(|extent| (height, extent, height.hypot(extent)));
+    let [left, right] = sides.map(|(rise, extent, length)| [rise / length, extent / length]);
+    let normals = [[-left[0], left[1]], right, [0.1_f64.sin(), 0.1_f64.cos()]];
+    // Middles of the sides, and the point of the arc with the third normal: its centre is below the apex on the bisector.
+    let apex_angle = (asymmetry * width / height).atan() + ((1.0 - asymmetry) * width / height).atan();
+    let lean = 0.5 * ((1.0 - asymmetry) * width / height).atan() - 0.5 * (asymmetry * width / height).atan();
+    let depth = tip / (0.5 * apex_angle).sin();
+    let centre = [asymmetry * width + depth * lean.sin(), height - depth * lean.cos()];
+    let points = [
+        [0.5 * asymmetry * width, 0.5 * height],
+        [0.5 * (1.0 + asymmetry) * width, 0.5 * height],
+        [centre[0] + tip * normals[2][0], centre[1] + tip * normals[2][1]],
+    ];
+    for (part, ([x, y], [across, up])) in points.into_iter().zip(normals).enumerate() {
+        let base = Moving {
+            drive: Sine {
+                amplitude: 0.0,
+                frequency: 25.0,
+                phase: 0.0,
+            },
+            farthest: 0.0,
+        };
+        let profile = SawtoothProfile::new(width, height, asymmetry, tip).unwrap();
+        let model = Model {
+            law: Smooth::ELASTIC,
+            boundary: Sawtooth::new(profile, base, 0.6, 0.0),
+            gravity: 0.0,
+            space: cell(),
+        };
+        let disk = Disk {
+            x: 2.0 * width + x + radius * across,
+            y: y + radius * up + 1e-3,
+            radius,
+        };
+        let mut engine = EventDriven::new(model, &[disk], &[mass], &[[0.0, -speed, 0.0]], Settings::default());
+        engine.advance_to(1e-3 / speed + 1e-4).unwrap();
+        let teeth = *engine.state().boundary.tooth_impacts();
+        let counts = teeth.map(|sum| sum.count);
+        let expected = 2.0 * mass * speed * up * across;
+        assert!(
+            counts[part] == 1 && counts.iter().sum::<u64>() == 1,
+            "{part}: {counts:?}"
+        );
+        let off = teeth[part].impulse - expected;
+        assert!(
+            off.abs() < 1e-9 * expected.abs(),
+            "{part}: off by {off:e} of {expected} N.s"
+        );
+    }
+}

@@ -45,10 +45,7 @@ fn thrown(sideways: f64) -> Start {
 }
 
 fn resting(seed: u64) -> AtRandomPhase {
-    AtRandomPhase {
-        phase: RandomPhase { peak_velocity: PEAK },
-        generator: Pcg64::seed_from_u64(seed),
-    }
+    AtRandomPhase::new(RandomPhase { peak_velocity: PEAK }, Pcg64::seed_from_u64(seed))
 }
 
 fn dashpot(restitution: f64, kappa: f64, friction: f64) -> Dashpot {
@@ -325,10 +322,7 @@ fn runs_collapse_when_scaled() {
     let scaled = |gamma: f64, angular_frequency: f64| {
         let peak = gamma * GRAVITY / angular_frequency;
         let (length, unit) = (peak * peak / GRAVITY, peak / GRAVITY);
-        let walls = AtRandomPhase {
-            phase: RandomPhase { peak_velocity: peak },
-            generator: Pcg64::seed_from_u64(2),
-        };
+        let walls = AtRandomPhase::new(RandomPhase { peak_velocity: peak }, Pcg64::seed_from_u64(2));
         let law = tabulated(0.9, 0.773, 0.1);
         let start = Start {
             time: 0.0,

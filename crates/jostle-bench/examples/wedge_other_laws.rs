@@ -84,12 +84,12 @@ fn main() -> Result<(), Failure> {
 
 /// Runs at one tilt and prints its row.
 fn run<L: CollisionLaw>(law: L, frame: WedgeFrame, seconds: f64, seed: u64) -> Result<(), Failure> {
-    let walls = AtRandomPhase {
-        phase: RandomPhase {
+    let walls = AtRandomPhase::new(
+        RandomPhase {
             peak_velocity: PEAK_VELOCITY,
         },
-        generator: Pcg64::seed_from_u64(seed),
-    };
+        Pcg64::seed_from_u64(seed),
+    );
     let setup = WedgeSetup {
         frame,
         radius: RADIUS,

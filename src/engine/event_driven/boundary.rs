@@ -13,6 +13,8 @@ pub struct WallContact {
     pub normal: Vector2<f64>,
     /// Velocity of the wall at the instant of contact \[m/s\].
     pub velocity: Vector2<f64>,
+    /// Part of the wall, as [`Boundary::record`] gets it back; 0 where walls have no parts.
+    pub part: u32,
 }
 
 /// The first wall that a disk hits.
@@ -46,6 +48,10 @@ pub trait Boundary: Clone + PartialEq + Serialize + DeserializeOwned + Send + 's
     /// The wall that the body touches at its present time. `separation_velocity` gives the relative normal velocity
     /// \[m/s\] after an impact from the one before it.
     fn contact(&mut self, wall: u32, body: &Body, separation_velocity: impl Fn(f64) -> f64) -> WallContact;
+
+    /// An impact on that part of the wall has given `impulse` \[N.s\] to the disk: for boundaries that keep sums of their own.
+    #[inline(always)]
+    fn record(&mut self, _wall: u32, _part: u32, _impulse: Vector2<f64>) {}
 
     /// Whether the wall belongs to the vibrating base.
     fn is_base(&self, wall: u32) -> bool;

@@ -101,6 +101,7 @@ impl<L: CollisionLaw, B: Boundary, S: Space> EventDriven<L, B, S> {
         counts.wall_impacts += 1;
         counts.energy_lost += energy_lost(&impact, impulse);
         counts.energy_input += momentum.dot(&contact.velocity);
+        boundary.record(wall, contact.part, momentum);
         if boundary.is_base(wall) {
             counts.base_impulse += momentum.y;
         }

@@ -30,7 +30,7 @@ use crate::geometry::Disk;
 pub use body::{Body, PackedPartner, Partner, Spin};
 pub use boundary::{Boundary, WallContact, WallHit};
 pub use observer::{Observer, Unobserved};
-pub use sawtooth::Sawtooth;
+pub use sawtooth::{PartImpacts, Sawtooth, ToothImpacts};
 pub use space::{Open, Periodic, PeriodicAcross, Region, Space};
 pub use state::{Counts, EventDrivenState, EventDrivenStop, NoHeadway};
 pub use walls::{Moving, VibratingBase, Walls};

@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use crate::drive::{BoundedDrive, Motion};
-use crate::geometry::{Flight, SawtoothProfile, disk_wall};
+use crate::geometry::{Flight, SawtoothProfile, ToothPart, disk_wall};
 
 use super::{Body, Boundary, Moving, VibratingBase, WallContact, WallHit};
 
@@ -30,7 +30,20 @@ struct Gap {
     value: f64,
     rate: f64,
     normal: Vector2<f64>,
+    part: ToothPart,
 }
+
+/// Impacts of disks on one part of all teeth.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PartImpacts {
+    /// How many.
+    pub count: u64,
+    /// Impulse to the right that they gave to the disks \[N.s\].
+    pub impulse: f64,
+}
+
+/// Impacts on the left sides, right sides and tips of the teeth, as the variants of [`ToothPart`] come.
+pub type ToothImpacts = [PartImpacts; 3];
 
 /// Teeth on a base that moves, and a ceiling.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -43,6 +56,7 @@ pub struct Sawtooth<D> {
     /// Time \[s\] at which local time is zero.
     origin: f64,
     ceiling_hits: u64,
+    tooth_impacts: ToothImpacts,
 }
 
 impl<D: BoundedDrive> Sawtooth<D> {
@@ -55,6 +69,7 @@ impl<D: BoundedDrive> Sawtooth<D> {
             ceiling,
             origin,
             ceiling_hits: 0,
+            tooth_impacts: ToothImpacts::default(),
         }
     }
 
@@ -83,6 +98,11 @@ impl<D: BoundedDrive> Sawtooth<D> {
         self.ceiling_hits
     }
 
+    /// Impacts on the parts of the teeth so far.
+    pub fn tooth_impacts(&self) -> &ToothImpacts {
+        &self.tooth_impacts
+    }
+
     /// From now on the base moves like this.
     pub fn set_base(&mut self, base: Moving<D>) {
         self.local = base.drive.counted_from(self.origin);
@@ -100,6 +120,7 @@ impl<D: BoundedDrive> Sawtooth<D> {
             value: clearance.distance - body.radius,
             rate: clearance.normal.dot(&velocity),
             normal: clearance.normal,
+            part: clearance.part,
         }
     }
 
@@ -181,24 +202,38 @@ where
             return WallContact {
                 normal: Vector2::new(0.0, -1.0),
                 velocity: Vector2::zeros(),
+                part: 0,
             };
         }
         let base = self.local.motion(body.time);
         let half_width = body.radius * (1.0 + TOUCHES_BOTH);
         let (mut least, mut fastest) = (f64::INFINITY, f64::INFINITY);
-        let mut normal = Vector2::y();
+        let (mut normal, mut part) = (Vector2::y(), ToothPart::Tip);
         for tooth in self.profile.teeth_within(half_width, body.position.x) {
             let gap = self.gap(tooth, body, base, 0.0, 0.0);
             let touched = least <= TOUCHES_BOTH * body.radius;
             let touches = gap.value <= TOUCHES_BOTH * body.radius;
             if (touches && (!touched || gap.rate < fastest)) || (!touched && gap.value < least) {
-                (fastest, normal) = (gap.rate, gap.normal);
+                (fastest, normal, part) = (gap.rate, gap.normal, gap.part);
             }
             least = least.min(gap.value);
         }
         WallContact {
             normal,
             velocity: Vector2::new(0.0, base.velocity),
+            part: part as u32,
+        }
+    }
+
+    /// F Figs 13, 14 ask which sides the disks meet.
+    #[inline(always)]
+    fn record(&mut self, wall: u32, part: u32, impulse: Vector2<f64>) {
+        if wall == BASE
+            && let Some(sum) = self.tooth_impacts.get_mut(part as usize)
+        {
+            // Wrapping, since a state that is read back may hold any count.
+            sum.count = sum.count.wrapping_add(1);
+            sum.impulse += impulse.x;
         }
     }
 

@@ -144,7 +144,11 @@ impl<W: VibratingBase> Boundary for Walls<W> {
             let sampled = self.base.velocity_at_impact(motion, normal_velocity, normal.y, leaves);
             velocity.y = sampled.unwrap_or(0.0);
         }
-        WallContact { normal, velocity }
+        WallContact {
+            normal,
+            velocity,
+            part: 0,
+        }
     }
 
     fn is_base(&self, wall: u32) -> bool {

@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::drive::{AtRandomPhase, Motion, Sine};
+use crate::drive::{AtRandomPhase, BaseProfile, DrawCounts, Motion, Sine};
 use crate::engine::event_driven::{Counts, EventDrivenState, EventDrivenStop, Moving, Walls};
 use crate::engine::{DiskMotion, Engine, WorkBudget};
 use crate::geometry::Disk;
-use crate::scene::{Result, Row, Values};
+use crate::scene::{Error, Result, Row, Unit, Values, random_phase_base};
 
 use super::hard::{HardDisks, HardEngine};
 use super::initial_packing;
@@ -31,6 +31,23 @@ fn base_model<M>() -> Row<M> {
     )
 }
 
+fn stays_in_place(values: &Values) -> bool {
+    values.integer("base.model") == RANDOM_PHASE
+}
+
+/// Refuses a profile that would change nothing.
+fn check_profile_of_moving_base(values: &Values) -> Result<()> {
+    match random_phase_base::profile(values) {
+        BaseProfile::Sine => Ok(()),
+        BaseProfile::Sawtooth => Err(Error::parameter(
+            random_phase_base::PROFILE,
+            "sawtooth",
+            "sine with base.model moving, whose bottom has the velocity of its own motion",
+            "Set base.model random_phase, or leave base.profile sine.",
+        )),
+    }
+}
+
 /// Sine base in either model, as the parameter `base.model` says.
 #[derive(Debug)]
 pub enum EitherBase {
@@ -47,6 +64,16 @@ pub enum EitherState {
     RandomPhase(EventDrivenState<Walls<AtRandomPhase>>),
     /// Of the moving bottom.
     Moving(EventDrivenState<Walls<Moving<Sine>>>),
+}
+
+impl EitherBase {
+    /// Velocities that the base has drawn; none if it moves.
+    fn draw_counts(&self) -> DrawCounts {
+        match self {
+            Self::RandomPhase(run) => run.state().boundary.base.counts,
+            Self::Moving(_) => DrawCounts::default(),
+        }
+    }
 }
 
 macro_rules! either {
@@ -104,21 +131,33 @@ impl HardEngine for EitherBase {
 
     fn parameters<M>() -> Vec<Row<M>> {
         let mut rows = <HardDisks<AtRandomPhase> as HardEngine>::parameters();
-        rows.push(base_model());
+        rows.extend([base_model(), random_phase_base::profile_parameter()]);
         rows
     }
 
+    fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>> {
+        let [draws, rejected] = random_phase_base::DRAW_COUNTS;
+        let count = |(name, description): (&str, &str), read: fn(&M) -> f64| {
+            Row::output(name, Unit::ONE, 1e4, description, read)
+        };
+        vec![
+            count(draws, |packing| packing.as_ref().draw_counts().draws as f64),
+            count(rejected, |packing| packing.as_ref().draw_counts().rejected as f64),
+        ]
+    }
+
     fn from_values(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self> {
-        Ok(if Self::draws(values) {
+        Ok(if stays_in_place(values) {
             initial_packing::check_walls_of_random_phase(values)?;
             Self::RandomPhase(Box::new(HardEngine::from_values(disks, masses, start_time, values)?))
         } else {
+            check_profile_of_moving_base(values)?;
             Self::Moving(Box::new(HardEngine::from_values(disks, masses, start_time, values)?))
         })
     }
 
     fn draws(values: &Values) -> bool {
-        values.integer("base.model") == RANDOM_PHASE
+        stays_in_place(values) && random_phase_base::profile(values) == BaseProfile::Sine
     }
 
     fn work_done(&self) -> u64 {

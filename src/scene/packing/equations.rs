@@ -47,7 +47,8 @@ the phases of stick and slip during the impact, stitched exactly and tabulated t
 <li>impacts within <code>collision.contact_time</code> of a disk&#39;s last one lose nothing along the normal (contact-time
 model), which ends inelastic collapse</li>
 <li>moving bottom: each disk meets the base where and when it is; random phase: the bottom stays and lends each impact the
-velocity that a base of random phase has where it is first met</li>
+velocity that a base of random phase has where it is first met, or with <code>base.profile</code> = <code>sawtooth</code>
+<i>A</i> &omega;, up</li>
 <li>side walls: they stand still and rub on disks that the floor carries, or with <code>wall.motion</code> =
 <code>with_base</code> move up and down with the floor, as those of a box on a shaker do; <code>base.reaction_force</code>
 then holds their friction</li>

@@ -90,6 +90,12 @@ impl<E: HardEngine> HardPacking<E> {
     }
 }
 
+impl<E: HardEngine> AsRef<E> for HardPacking<E> {
+    fn as_ref(&self) -> &E {
+        &self.engine
+    }
+}
+
 impl<E: HardEngine> DisksOnBase for HardPacking<E> {
     fn report(&self) -> &StepReport {
         &self.report
@@ -208,6 +214,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
         rows.extend(rows::means_and_base(&at_start));
         rows.extend(energies.rows());
         rows.push(collisions);
+        rows.extend(E::own_outputs());
         rows.extend(rows::each_disk(disks, &at_start));
         complete(rows)
     }

@@ -11,7 +11,7 @@ use crate::engine::{DiskMotion, Engine};
 use crate::geometry::{Disk, Vector2};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::hard_disks::HardBase;
-use crate::scene::{Result, Row, Unit, Values, Warning};
+use crate::scene::{Result, Row, Unit, Values, Warning, random_phase_base};
 
 use super::hard_law::{HardLaw, hard_law};
 use super::{initial_packing, settled};
@@ -29,6 +29,10 @@ pub trait HardEngine: Engine<Stop = EventDrivenStop> {
 
     /// Further parameters.
     fn parameters<M>() -> Vec<Row<M>>;
+    /// Further outputs.
+    fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>> {
+        Vec::new()
+    }
     /// Disks at rest at `start_time` \[s\].
     ///
     /// # Errors
@@ -62,10 +66,7 @@ impl HardBase for AtRandomPhase {
         let peak_velocity = sine.amplitude * std::f64::consts::TAU * sine.frequency;
         // Another stream than that of the radii, which has the seed itself.
         let generator = Pcg64::seed_from_u64((values.integer("seed") as u64) ^ 0x9e37_79b9_7f4a_7c15);
-        Ok(Self {
-            phase: RandomPhase { peak_velocity },
-            generator,
-        })
+        Ok(Self::new(RandomPhase { peak_velocity }, generator).with_profile(random_phase_base::profile(values)))
     }
 
     fn set_target(&mut self, _time: f64, _duration: f64, _values: &Values) -> bool {

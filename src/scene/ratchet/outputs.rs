@@ -2,7 +2,8 @@
 //! first step, when the disks are in loose rows above the teeth, at rest.
 
 use crate::drive::BoundedDrive;
-use crate::engine::event_driven::Moving;
+use crate::engine::event_driven::{Moving, ToothImpacts};
+use crate::geometry::ToothPart;
 use crate::scene::base_drive::{BaseDrive, TERMINAL};
 use crate::scene::disks_on_base::{
     BaseRows, DisksOnBase, angles, heights, horizontal_positions, mean_angular_velocity, mean_velocity, names, radii,
@@ -10,7 +11,7 @@ use crate::scene::disks_on_base::{
 use crate::scene::hard_disks::{EnergyRows, HardBase, HardDisksOnBase};
 use crate::scene::{Row, Unit};
 
-use super::Ratchet;
+use super::{Averages, Ratchet};
 
 /// The highest point of the base at rest, and the pitch of the rows of disks.
 const ROWS_OF_DISKS: &[&str] = &[
@@ -37,6 +38,7 @@ where
         rows.extend(Self::base());
         rows.extend(Self::energy_rows());
         rows.extend(Self::collisions());
+        rows.extend(Self::impacts_by_part_of_tooth());
         rows.extend(Self::motion_of_each(disks));
         rows
     }
@@ -150,6 +152,46 @@ where
         ]
     }
 
+    /// F Figs 13, 14: which sides the disks meet, and what these give them.
+    fn impacts_by_part_of_tooth() -> impl Iterator<Item = Row<Self>> {
+        type Read<M> = fn(&M) -> f64;
+        const LEFT: usize = ToothPart::LeftSide as usize;
+        const RIGHT: usize = ToothPart::RightSide as usize;
+        const TIP: usize = ToothPart::Tip as usize;
+        let left = "left sides of teeth, of horizontal extent asymmetry times width,";
+        let parts: [(&str, &str, Read<Self>, Read<Self>); 3] = [
+            ("left_side", left, Self::impacts_on::<LEFT>, Self::impulse_of::<LEFT>),
+            (
+                "right_side",
+                "right sides of teeth",
+                Self::impacts_on::<RIGHT>,
+                Self::impulse_of::<RIGHT>,
+            ),
+            (
+                "tip",
+                "rounded tips of teeth",
+                Self::impacts_on::<TIP>,
+                Self::impulse_of::<TIP>,
+            ),
+        ];
+        let since = "since measure.start or the last change of measure.mark; 0 before";
+        let counts = parts.map(|(name, what, read, _)| {
+            let description = format!("Impacts of disks on {what} {since}");
+            Row::output(format!("tooth.{name}_impacts"), Unit::ONE, 1e4, description, read)
+        });
+        let impulses = parts.map(|(name, what, _, read)| {
+            let description = format!("Horizontal impulse, to the right, that {what} gave to the disks {since}");
+            Row::output(
+                format!("tooth.{name}_impulse"),
+                Unit::NEWTON_SECOND,
+                1e-4,
+                description,
+                read,
+            )
+        });
+        counts.into_iter().chain(impulses)
+    }
+
     fn motion_of_each(disks: u32) -> impl Iterator<Item = Row<Self>> {
         let across = names(&[&["seed", "disk.radius_max", "tooth.count", "tooth.width"]]);
         let up = names(&[ROWS_OF_DISKS, D::DISPLACEMENT_AT_START]);
@@ -168,6 +210,24 @@ where
     fn horizontal_positions(&self) -> (f64, impl ExactSizeIterator<Item = f64> + Clone) {
         let positions = (0..self.disk_count()).map(|disk| self.disk(disk).position.x);
         (self.report.time, positions)
+    }
+
+    fn impacts_on<const PART: usize>(&self) -> f64 {
+        self.since_mark(|teeth| teeth[PART].count as f64)
+    }
+
+    fn impulse_of<const PART: usize>(&self) -> f64 {
+        self.since_mark(|teeth| teeth[PART].impulse)
+    }
+
+    /// What a sum over impacts on the teeth has grown by since the averages began.
+    fn since_mark(&self, sum: impl Fn(&ToothImpacts) -> f64) -> f64 {
+        let Averages { transport, teeth, .. } = &self.averages;
+        if transport.has_begun() {
+            sum(self.engine.state().boundary.tooth_impacts()) - sum(teeth)
+        } else {
+            0.0
+        }
     }
 
     fn ceiling_hits(&self) -> u64 {

@@ -19,7 +19,8 @@ wall at angle &theta; has <i>n</i> = (&minus;sin &theta;, cos &theta;) and <i>t<
 <li><i>e<sub>t</sub></i> follows from |<i>u<sub>t</sub></i>/<i>u<sub>n</sub></i>|, &kappa;, &mu; and
 <i>e<sub>n</sub></i>: the tangential spring that sticks and slips during the impact, solved phase by phase</li>
 <li>map: the walls are at rest; <i>v<sub>b</sub></i> is that of a sinusoidal base where a disk thrown at a random phase
-first meets it, drawn again while the disk would not leave the wall</li>
+first meets it, drawn again while the disk would not leave the wall; with <code>base.profile</code> = <code>sawtooth</code>
+it is <i>A</i> &omega;<sub>b</sub>, up, at every impact</li>
 <li>event-driven: the walls move with the base; the first meeting with either of them is found to rounding; no impact
 leaves slower than <code>collision.minimum_normal_velocity</code></li>
 <li>molecular dynamics: <i>N</i> = max(<i>k<sub>n</sub></i> &delta; &minus; &gamma;<sub>n</sub> <i>u<sub>n</sub></i>, 0),

@@ -7,11 +7,11 @@ use rand_pcg::Pcg64;
 
 use crate::collision::{Dashpot, TabulatedDashpot, VelocityFloor};
 use crate::contact::LinearDashpot;
-use crate::drive::{AtRandomPhase, FirstHit, Motion, RandomPhase, Sine};
+use crate::drive::{AtRandomPhase, BaseProfile, FirstHit, Motion, RandomPhase, Sine};
 use crate::engine::DiskMotion;
 use crate::engine::wedge::{DiskInWedge, NO_PROGRESS, Side, Start, Stuck, WedgeSetup, WedgeStop};
 use crate::scene::base_drive::BaseDrive;
-use crate::scene::{Error, Kind, Result, Row, Unit, Values, Warning, work_limit};
+use crate::scene::{Error, Kind, Result, Row, Unit, Values, Warning, random_phase_base, work_limit};
 
 use super::engine::{AtStart, SpecificEnergies, WedgeEngine};
 use super::rows::{self, NAME};
@@ -154,21 +154,38 @@ impl WedgeEngine for Map {
                 quantity.max = 1e4;
             }
         }
+        rows.push(random_phase_base::profile_parameter());
         rows
     }
 
     fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>> {
-        vec![collisions(|scene: &M| counted(scene.as_ref().state().sums.collisions))]
+        let [draws, rejected] = random_phase_base::DRAW_COUNTS;
+        vec![
+            collisions(|scene: &M| counted(scene.as_ref().state().sums.collisions)),
+            Row::count_output(draws.0, draws.1, |scene: &M| {
+                counted(scene.as_ref().state().walls.counts.draws)
+            }),
+            Row::count_output(rejected.0, rejected.1, |scene: &M| {
+                counted(scene.as_ref().state().walls.counts.rejected)
+            }),
+        ]
     }
 
     fn from_values(start_time: f64, values: &Values) -> Result<Self> {
+        let profile = random_phase_base::profile(values);
+        if profile == BaseProfile::Sawtooth {
+            rows::check_no_overhang(values)?;
+        }
         let amplitude = values.real("drive.amplitude");
         let mut generator = Pcg64::seed_from_u64(values.integer("seed") as u64);
         let (height, sideways) = rows::throw(values, &mut generator);
         let phase = RandomPhase {
             peak_velocity: TAU * values.real("drive.frequency") * amplitude,
         };
-        let (setup, walls) = (setup(values, 0.0), AtRandomPhase { phase, generator });
+        let (setup, walls) = (
+            setup(values, 0.0),
+            AtRandomPhase::new(phase, generator).with_profile(profile),
+        );
         let start = Start {
             time: start_time,
             height,

@@ -7,6 +7,7 @@ use rand::Rng;
 use crate::engine::wedge::WedgeFrame;
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::info::GRAVITY;
+use crate::scene::random_phase_base::PROFILE;
 use crate::scene::{Error, Kind, Result, Row, Unit, Values, work_limit};
 
 /// Largest aperture \[rad\]: a little more than 179.9 degrees. Not a rounded pi.
@@ -122,6 +123,24 @@ pub fn check(values: &Values) -> Result<()> {
         ));
     }
     Ok(())
+}
+
+/// Refuses a wall that hangs over: a base that falls at once would hit from above with no velocity that exists.
+pub fn check_no_overhang(values: &Values) -> Result<()> {
+    let [left, right] = slopes(values);
+    if left.max(right) <= FRAC_PI_2 {
+        return Ok(());
+    }
+    let most = FRAC_PI_2 - WedgeFrame::critical_tilt(values.real("wedge.aperture"));
+    Err(Error::parameter(
+        PROFILE,
+        "sawtooth",
+        format!(
+            "sine where a wall hangs over: with this wedge.aperture at a wedge.tilt beyond {}",
+            Unit::RADIAN.format(most)
+        ),
+        "Tilt less, take a larger wedge.aperture, or base.profile sine.",
+    ))
 }
 
 /// Largest velocity of the base, A omega_b \[m/s\].

@@ -38,7 +38,7 @@ def make(laboratory: Laboratory, _quick: bool, _seeds: int | None = None) -> Pro
 
 def draw(stiffness: Numbers, difference: Numbers, slope: float, offset: float) -> Figure:
     """Log-log, with the fitted line."""
-    figure = Figure(figsize=(0.6 * WIDTH, 3.3), layout="constrained")
+    figure = Figure(figsize=(0.85 * WIDTH, 3.3), layout="constrained")
     panel = figure.subplots()
     panel.loglog(stiffness, 1e3 * difference, "o", color="#1f5fa8", label="four disks after 0.12 s")
     line = np.exp(offset) * stiffness**slope

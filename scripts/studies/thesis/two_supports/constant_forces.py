@@ -1,0 +1,142 @@
+"""P 4.4 and 5: constant normal forces give no rotation, fluctuating ones do; a reduced model integrated here."""
+
+import math
+import time
+from dataclasses import dataclass
+
+from matplotlib.figure import Figure
+
+from jostle_lab.plots.style import WIDTH
+from jostle_lab.runs.laboratory import Laboratory
+from jostle_lab.statements import Product, Statement
+from jostle_lab.statistics.estimates import Estimate, Numbers
+from jostle_lab.tables import Table
+from jostle_lab.verdicts import above, below, compatible, exact, vanish
+from studies.thesis.two_supports.random_runs import FULL, Place, measure
+from studies.thesis.two_supports.reduced_model import STEP, Excitation, turned
+from studies.thesis.two_supports.runs import SLOW, Torque, turnings
+
+TORQUE = Torque(0.1 * math.pi, 0.113)
+"""The bidirectional run of P Fig. 5.6."""
+SHAKEN = Place(0.04 * math.pi, 4e-5)
+"""A point of P Figs 5.8 and 5.9."""
+SECONDS, QUICK_SECONDS, SETTLE = 10.5, 1.5, 0.5
+DISKS, SEED = 64, 7
+
+
+@dataclass(frozen=True)
+class Case:
+    """One way to drive the disk, with constant normal forces or with those of the moving disk."""
+
+    random: bool
+    constant: bool
+    seconds: float
+
+    @property
+    def name(self) -> str:
+        """In words."""
+        drive = "random supports" if self.random else "slow torque"
+        return f"{drive}, {'constant' if self.constant else 'fluctuating'} normal forces"
+
+    def velocities(self, laboratory: Laboratory) -> Numbers:
+        """Mean angular velocity of each disk [rad/s]; kept in the record."""
+
+        def compute() -> tuple[Table, float]:
+            begun = time.process_time()
+            if self.random:
+                excitation = Excitation(supports=SHAKEN.amplitude)
+                found = turned(SHAKEN.tilt, excitation, self.constant, self.seconds, SETTLE, DISKS, SEED)
+            else:
+                period = math.tau / SLOW
+                excitation = Excitation(torque=TORQUE.amplitude, torque_frequency=SLOW)
+                found = turned(TORQUE.tilt, excitation, self.constant, 2.0 * period, period, 1, SEED)
+            return {"velocity": found}, time.process_time() - begun
+
+        return laboratory.computed(f"reduced model, {self.name}, {self.seconds:g} s", compute)["velocity"]
+
+
+def make(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Product:
+    """Four cases of the reduced model, and the program beside them."""
+    seconds = QUICK_SECONDS if quick else SECONDS
+    cases = {(r, c): Case(r, c, seconds) for r in (False, True) for c in (True, False)}
+    found = {key: case.velocities(laboratory) for key, case in cases.items()}
+    torque = {c: float(found[False, c][0]) for c in (True, False)}
+    random = {c: Estimate.over_runs(found[True, c]) for c in (True, False)}
+    program = measure(laboratory, "constant forces", [SHAKEN], FULL)[SHAKEN].velocity
+    slow = turnings(laboratory, "constant forces", [TORQUE])[TORQUE].velocity
+    notes = [
+        "reduced model: small motions of the centre on two normal springs with dashpots, the angle on two tangential "
+        f"springs held at mu n_i; semi-implicit steps of {STEP:g} s; parameters of P 5.1",
+        "constant normal forces: the limit of the tangential springs is mu times the n_i at rest, n_1 / n_2 = "
+        f"{_ratio(SHAKEN.tilt):.2f} (supports) and {_ratio(TORQUE.tilt):.2f} (torque); everything else is the same",
+        f"random supports: tilt {SHAKEN.tilt / math.pi:.2f} pi, A_b = {SHAKEN.amplitude:g} m, {DISKS} disks, "
+        f"{seconds - SETTLE:g} s after {SETTLE:g} s, all as drawn, no mirrored pairs, the same noise in both cases",
+        f"torque: tilt {TORQUE.tilt / math.pi:.2f} pi, A_e = {TORQUE.amplitude} N m, omega_e = {SLOW:g} rad/s, second "
+        "period; no chance",
+    ]
+    rows = [
+        {"case": case.name, "disk": i, "angular_velocity": float(v)}
+        for key, case in cases.items()
+        for i, v in enumerate(found[key])
+    ]
+    title = "Constant normal forces give no rotation"
+    return Product(title, rows, draw(found, torque), statements(torque, random, slow, program), notes)
+
+
+def _ratio(tilt: float) -> float:
+    return math.sin(math.pi / 6.0 + tilt) / math.sin(math.pi / 6.0 - tilt)
+
+
+def statements(
+    torque: dict[bool, float], random: dict[bool, Estimate], slow: float, program: Estimate
+) -> list[Statement]:
+    """`torque` and `random`: by whether normal forces are constant; `slow` and `program`: of the program [rad/s]."""
+    return [
+        Statement.judged(
+            "4.4, 5",
+            "constant normal forces: the disk does not rotate (harmonic torque)",
+            f"{torque[True]:.1e} rad/s, with fluctuating ones {torque[False]:.2e} rad/s",
+            exact(torque[True] / torque[False], 1e-5, "over the velocity with fluctuating normal forces"),
+        ),
+        Statement.judged(
+            "4.4, 5",
+            "constant normal forces: the disk does not rotate (random supports)",
+            f"{random[True]} rad/s, with fluctuating ones {random[False]} rad/s",
+            vanish([random[True]], 0.1 * abs(random[False].mean)),
+        ),
+        Statement.judged(
+            "5",
+            "it is not sufficient that normal forces differ, they must fluctuate with the motion: then the disk turns",
+            f"torque: {torque[False]:.2e}, supports: {random[False]} rad/s",
+            above(Estimate(torque[False], abs(torque[True])), 0.0) & below(random[False], 0.0),
+        ),
+        Statement.judged(
+            "4.2, 4.3 (ours)",
+            "the reduced model and the molecular dynamics are the same disk",
+            f"torque: {torque[False]:.4e} and {slow:.4e}, supports: {random[False]} and {program} rad/s",
+            exact(torque[False] / slow - 1.0, 1e-2, "relative difference under the torque")
+            & compatible(random[False], program.mean, program.error),
+        ),
+    ]
+
+
+def draw(found: dict[tuple[bool, bool], Numbers], torque: dict[bool, float]) -> Figure:
+    """Every disk on random supports, and the two runs under a torque."""
+    figure = Figure(figsize=(WIDTH, 3.4), layout="constrained")
+    panel, other = figure.subplots(1, 2, width_ratios=(3, 1))
+    bins = 30
+    span = (1e6 * min(v.min() for v in found.values()) - 5.0, 1e6 * found[True, True].max() + 5.0)
+    for constant, hatch, colour in ((True, "", "#7fa8d1"), (False, "///", "#c0272d")):
+        values = 1e6 * found[True, constant]
+        mean = Estimate.over_runs(values)
+        label = f"{'constant' if constant else 'fluctuating'} $n_1$, $n_2$: mean {mean}"
+        panel.hist(values, bins, range=span, color=colour, alpha=0.6, hatch=hatch, ec="0.3", lw=0.5, label=label)
+        panel.axvline(mean.mean, color=colour, lw=1.5)
+    panel.axvline(0.0, color="0.3", lw=0.7, ls=":")
+    panel.set(xlabel=r"$\bar\omega$ of a disk on random supports [$10^{-6}$ rad/s]", ylabel="disks")
+    panel.set_ylim(0.0, 1.35 * panel.get_ylim()[1])
+    panel.legend(loc="upper left")
+    other.bar(["constant", "fluctuating"], [1e3 * torque[True], 1e3 * torque[False]], color=["#7fa8d1", "#c0272d"])
+    other.axhline(0.0, color="0.3", lw=0.7)
+    other.set(ylabel=r"$\bar\omega$ under a slow torque [$10^{-3}$ rad/s]", xlabel="normal forces")
+    return figure

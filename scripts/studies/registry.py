@@ -51,7 +51,7 @@ STUDIES = {
     "F14": "flow:BACKWARDS",
 }
 """Figure of F and the study in `studies.ratchet` that makes it."""
-PRECISE = frozenset({"4.4", "4.5", "5.1", "5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "closed-form", "engines"})
+PRECISE = frozenset({"4.4", "5.1", "5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "closed-form", "engines"})
 """Figures without chance, whose runs are kept in double precision."""
 NUMBERS = (*MODULES, *STUDIES)
 GROUPS = {"all": tuple(MODULES), "F": tuple(STUDIES)}

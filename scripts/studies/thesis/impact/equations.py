@@ -43,7 +43,7 @@ class Contact:
 
     @property
     def damping_ratio(self) -> float:
-        """c = beta / omega_0."""
+        """Damping ratio c = beta / omega_0."""
         return self.damping / (2.0 * self.mass * self.frequency)
 
     @property
@@ -57,7 +57,7 @@ class Contact:
 
     def normal_rate(self, overlap: float, rate: float) -> float:
         """Derivative of the normal force [N/s], from the equation of motion."""
-        return self.stiffness * rate + self.damping * (self.load - self.normal(overlap, rate) / self.mass)
+        return float(self.stiffness * rate + self.damping * (self.load - self.normal(overlap, rate) / self.mass))
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,8 @@ class Impact:
 def integrate(contact: Contact, approach: float, slip: float) -> Impact:
     """The impact with u_n = -`approach` and u_t = `slip` [m/s]."""
     state = np.array([0.0, approach, 0.0, slip])
-    time, phases = 0.0, []
+    time = 0.0
+    phases: list[Phase] = []
     limit = contact.friction * contact.normal_rate(0.0, approach)
     # Without damping the friction limit starts from zero: it slides at once if the spring would load faster.
     sliding = contact.damping == 0.0 and contact.tangential * abs(slip) > limit

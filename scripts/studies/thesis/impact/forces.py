@@ -31,7 +31,7 @@ RADIUS = 0.02
 
 
 def dropped(kappa: float) -> Run:
-    """A spinning disk that falls on a horizontal wall, the left one; the right one is vertical and the disk leaves it."""
+    """A spinning disk that falls on the left wall, which is horizontal, and leaves the right one, which is upright."""
     half = math.pi / 4.0
     contact = Contact()
     settings = (
@@ -70,9 +70,11 @@ def make(laboratory: Laboratory, _quick: bool, _seeds: int | None = None) -> Pro
     notes = [
         f"k_n = 4.5e6 N/m, gamma_n = 9.84 kg/s, m = 4.5 g, mu = 0.1 (P Fig. 4.5); u_n = -{APPROACH:g} m/s, "
         f"u_t = {SLIP:g} m/s: not given for Fig. 4.4",
-        "equations of motion by DOP853 with relative tolerance 1e-12 and events where a phase ends; no printed solution "
+        "equations of motion by DOP853 with relative tolerance 1e-12 and events where a phase ends; no "
+        "printed solution "
         "is used",
-        f"simulation: the scene three_disk with the left wall horizontal, gravity {LOAD:g} m/s^2, so that the fall takes "
+        f"simulation: the scene three_disk with the left wall horizontal, gravity {LOAD:g} m/s^2, so that the "
+        "fall takes "
         "1 ms; the equations beside it have this gravity too",
         "no chance, hence no seeds and no error bars",
     ]
@@ -82,7 +84,7 @@ def make(laboratory: Laboratory, _quick: bool, _seeds: int | None = None) -> Pro
 def observed(table: Table) -> tuple[Numbers, Numbers, Numbers]:
     """Time since first touch [s], normal and tangential force [N] of a run, while in contact."""
     normal, tangential = table["contact[1].normal_force"], table["contact[1].tangential_force"]
-    time = SAMPLE * np.arange(len(normal)) - FLIGHT
+    time = np.asarray(SAMPLE * np.arange(len(normal)) - FLIGHT, dtype=np.float64)
     inside = (normal > 0.0) & (time > 0.5 * SAMPLE)
     return time[inside], normal[inside], tangential[inside]
 
@@ -108,7 +110,7 @@ def simulated(pairs: dict[float, tuple[Impact, Table]]) -> Statement:
 def draw(
     times: Numbers, forces: dict[float, tuple[Numbers, Numbers]], tables: dict[Run, Table], runs: dict[float, Run]
 ) -> Figure:
-    """mu n and the tangential forces, with points of the simulation."""
+    """Friction limit mu n and the tangential forces, with points of the simulation."""
     figure = Figure(figsize=(WIDTH, 3.8), layout="constrained")
     panel = figure.subplots()
     limit = Contact().friction * forces[1.0][0]

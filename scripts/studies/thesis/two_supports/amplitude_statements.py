@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -40,7 +41,7 @@ def begins_at_limit(found: Found) -> Statement:
     onsets = [onset(line) for line in found[1:]]
     below = max(abs(line.found[0].velocity) for line in found)
     judged = [near(o, line.lower, 1e-2 * line.lower) for o, line in zip(onsets, found[1:], strict=True)]
-    falling = [above(Estimate(a.mean - b.mean, math.hypot(a.error, b.error)), 0.0) for a, b in zip(onsets, onsets[1:])]
+    falling = [above(Estimate(a.mean - b.mean, math.hypot(a.error, b.error)), 0.0) for a, b in pairwise(onsets)]
     text = "; ".join(
         f"{_tilt(line)}: {o} N m, A_S2 = {line.lower:.5f} N m" for line, o in zip(found[1:], onsets, strict=True)
     )
@@ -165,7 +166,7 @@ def _collapse(found: Found) -> Statement:
 
 
 def _scaled(line: TiltLine, velocities: Numbers, excess: float) -> float:
-    """omega / (A_S1 - A_S2)^2 at an excess, between points in the logarithm."""
+    """Omega / (A_S1 - A_S2)^2 at an excess, between points in the logarithm."""
     width = line.upper - line.lower
     u = (line.amplitudes - line.lower) / width
     inside = u > 0.0

@@ -224,7 +224,8 @@ def _assumptions(scaling: Sequence[Comparison], at_rest: Sequence[Comparison]) -
             "5.2.4",
             "assumption: no inertia of the centre, a quasi-static torque",
             f"with overlap there remains a deviation that goes as omega_e to the {with_speed}; the first order of the "
-            f"inertia takes away all but {abs(hasty[0].deviation(hasty[0].full) / hasty[0].deviation(hasty[0].soft)):.1%}",
+            "inertia takes away all but "
+            f"{abs(hasty[0].deviation(hasty[0].full) / hasty[0].deviation(hasty[0].soft)):.1%}",
             exact(with_speed.mean - 2.0, 0.3, "exponent less 2"),
         ),
         Statement.judged(

@@ -17,9 +17,9 @@ from studies.thesis.two_supports.spring_region import Region, distance_to_path, 
 
 TILT = 0.1 * math.pi
 STILL, SLIDING = Torque(TILT, 0.100), Torque(TILT, 0.113)
-SAMPLES = 1000
+SAMPLES = 500
 """Points a period."""
-QUICK_SAMPLES = 1000
+QUICK_SAMPLES = 300
 ON_PATH = 1e-2
 """A point within this part of the distance from S1 to S2 is on a line: the width of a line in print."""
 SHOWN = 1e8

@@ -158,7 +158,7 @@ def measured(place: Place, groups: Sequence[Sequence[Table]], effort: Effort) ->
         return np.array([[table[name][-1] for table in group] for group in groups])
 
     values = last("time_averaged_angular_velocity")
-    slipping = sum(last(f"contact[{i}].slip_time") for i in (1, 2)) / (2.0 * effort.seconds)
+    slipping = (last("contact[1].slip_time") + last("contact[2].slip_time")) / (2.0 * effort.seconds)
     return Measured(
         place,
         Estimate.over_runs(values.mean(axis=1)),

@@ -34,7 +34,7 @@ class Excitation:
     torque_frequency: float = 1.0
     """omega_e [rad/s]."""
     supports: float = 0.0
-    """A_b [m]."""
+    """A_b [m]; a negative number reverses every displacement of the same noise."""
 
 
 def resting_forces(tilt: float) -> tuple[float, float]:
@@ -69,7 +69,7 @@ def turned(
     noise = noise * excitation.supports
     # Displacement and velocity of x, y and R angle of both supports: shape (2, 2, 3, disks).
     supports = np.zeros((2, 6, disks))
-    if excitation.supports > 0.0:
+    if excitation.supports != 0.0:
         supports[0] = excitation.supports * generator.normal(size=(6, disks))
         supports[1] = excitation.supports * SUPPORT_FREQUENCY * generator.normal(size=(6, disks))
     begun = np.zeros(disks)
@@ -77,7 +77,7 @@ def turned(
     for n in range(count):
         if n == first:
             begun = angle.copy()
-        if excitation.supports > 0.0:
+        if excitation.supports != 0.0:
             kicks = np.einsum("ij,jkd->ikd", noise, generator.normal(size=(2, 6, disks)))
             supports = np.einsum("ij,jkd->ikd", forward, supports) + kicks
         moved, moving = supports[0].reshape(2, 3, disks), supports[1].reshape(2, 3, disks)

@@ -100,7 +100,8 @@ def _statements(laboratory: Laboratory, found: dict[Torque, Turning], predicted:
         Statement.judged(
             "5.2.1",
             "at a fixed tilt, as A_e grows: none, unidirectional, bidirectional",
-            f"simulations at {len(by_tilt)} tilts: in this order at {'all' if rising else 'not all'}, all three found at "
+            f"simulations at {len(by_tilt)} tilts: in this order at {'all' if rising else 'not all'}, all "
+            "three found at "
             f"{complete} (upright there is no unidirectional regime)",
             true(rising and complete >= len(by_tilt) - 1, "at each tilt; no chance"),
         ),
@@ -155,7 +156,7 @@ def _limits(laboratory: Laboratory) -> list[Statement]:
 
 
 def _at_fixed_amplitude(laboratory: Laboratory) -> list[Statement]:
-    """Regimes along horizontal lines of Fig. 5.1; the theory is tested by the simulations on both sides of its lines."""
+    """Regimes along horizontal lines of Fig. 5.1, by the theory that the simulations beside its lines test."""
     most = limits(laboratory, 0.0)["detachment_tilt"]
     last = limits(laboratory, most - 1e-9)
     unit = last["A_0"]

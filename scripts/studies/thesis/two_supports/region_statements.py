@@ -85,7 +85,8 @@ def _symmetry(tilted: Region, upright: Region) -> list[Statement]:
             "4.4, Fig. 4.3",
             "with constant normal forces it is a parallelogram turned by 45 degrees, symmetric upon reflection through "
             "the origin",
-            f"edges at {', '.join(f'{a:.1f}' for a in angles)} degrees to the axes, reflected through the origin off by "
+            f"edges at {', '.join(f'{a:.1f}' for a in angles)} degrees to the axes, reflected through the "
+            "origin off by "
             f"{through['constant']:.0e}",
             exact(through["constant"], 1e-12) & exact(float(np.max(np.abs(angles - 45.0))), 1e-6, "angle less 45"),
         ),
@@ -99,7 +100,8 @@ def _symmetry(tilted: Region, upright: Region) -> list[Statement]:
             "5",
             "without tilt the quadrilateral becomes symmetric",
             f"mirrored left to right it is off by {mirrored['upright']:.0e}; reflected through the origin by "
-            f"{asymmetry(upright.outline):.3f}, since T1 and T2 differ: the mirror is the symmetry that forbids rotation",
+            f"{asymmetry(upright.outline):.3f}, since T1 and T2 differ: the mirror is the symmetry that "
+            "forbids rotation",
             exact(mirrored["upright"], 1e-12),
         ),
     ]
@@ -167,7 +169,7 @@ def _simulated(tilted: Region, points: Numbers, stiffer: Numbers, margin: Number
         share_of_first(distance_to_path(p, tilted.outline) / tilted.size, distance_to_path(p, closed) / tilted.size)
         for p in (points, stiffer)
     )
-    outside = pieces(beyond > 1e-3)
+    outside = pieces((beyond > 1e-3).astype(np.float64))
     reached = max(min(near[name], near_constant[name]) for name in QUADRILATERAL)
     return [
         Statement.judged(
@@ -186,7 +188,8 @@ def _simulated(tilted: Region, points: Numbers, stiffer: Numbers, margin: Number
             "constant normal forces",
             above(follow, 0.5),
             "the tangential springs load within sqrt(m / k_t) = 0.3 ms, the centre moves within sqrt(m / k_n) = 10 ms: "
-            "normal forces have no time to follow (k_t / k_n = 1000). Trial: with k_n a hundred times larger the share is "
+            "normal forces have no time to follow (k_t / k_n = 1000). Trial: with k_n a hundred times larger "
+            "the share is "
             f"{follow_stiffer}",
         ),
         Statement.judged(

@@ -69,7 +69,8 @@ def statements(found: Curves) -> list[Statement]:
         Statement.judged(
             "6.3.4, Fig. 6.7",
             "no rotation in a flat wedge, theta_W = 179 degrees",
-            f"largest {largest[179.0]}, {100 * sizes[179.0].mean / strongest:.1f} % of the strongest aperture; from zero: "
+            f"largest {largest[179.0]}, {100 * sizes[179.0].mean / strongest:.1f} % of the strongest "
+            "aperture; from zero: "
             f"chi^2 per point {ratio:.2f}, p = {p_value:.2g}",
             vanish(flat, SMALL * strongest),
             "at 179 degrees the wedge is not flat: a rotation of this size is real",

@@ -95,7 +95,7 @@ def draw(the_map: Curve, moving: dict[float, Curve], soft: dict[float, Curve]) -
 def statements(
     the_map: Curve, moving: dict[float, Curve], soft: dict[float, Curve], cost: dict[str, float]
 ) -> list[Statement]:
-    """MD against both event-driven ways, and MD against itself; `cost`: processor time per time scale A omega_b / g [s]."""
+    """MD against both event-driven ways and itself; `cost`: processor time per A omega_b / g [s]."""
     strongest = peak([the_map])
     tilts = next(iter(soft.values())).tilts
     common = [average([curve.points[i] for curve in soft.values()]) for i in range(len(tilts))]
@@ -124,7 +124,8 @@ def statements(
                 every(
                     [to_map[1], rest], f"{to_map[1].rule}; in part if the rms is below {CLOSE:.0%} of it by two errors"
                 ),
-                f"moving wedge less map: {apart[gamma]}: the random phase is what differs, not the duration of contacts",
+                f"moving wedge less map: {apart[gamma]}: the random phase is what differs, not the duration "
+                "of contacts",
             )
         )
     curves = {f"MD, Gamma = {g:g}": c for g, c in soft.items()}
@@ -135,7 +136,8 @@ def statements(
         Statement.judged(
             "6.3.3",
             "event-driven simulation is faster by orders of magnitude",
-            f"processor time for the same time in units of A omega_b / g: {ratio:.0f} times that of the map, moving wedge "
+            f"processor time for the same time in units of A omega_b / g: {ratio:.0f} times that of the map, "
+            "moving wedge "
             f"{cost['molecular'] / cost['moving']:.0f}",
             above(Estimate(math.log10(ratio), LOAD_ERROR), 2.0),
         ),

@@ -52,7 +52,8 @@ def sliding(curve: Curve, stiffer: Curve) -> Statement:
     return Statement.judged(
         "6.3.4",
         "for very small mu the disk slides during the entire contact and e_t does not depend on k_t",
-        f"mu = {curve.wedge.friction:g}, kappa = {curve.wedge.stiffness_ratio:g} and {stiffer.wedge.stiffness_ratio:g} at "
+        f"mu = {curve.wedge.friction:g}, kappa = {curve.wedge.stiffness_ratio:g} and "
+        f"{stiffer.wedge.stiffness_ratio:g} at "
         f"{len(stiffer.tilts)} tilts: {text}",
         judgement,
         "near the critical tilt slow grazing impacts have small |u_t/u_n|, and longer runs would tell",
@@ -145,7 +146,8 @@ def _rough(found: Curves) -> list[Statement]:
 
 ROUGH = (
     "not found in the paper's e_t: its printed recipe gives a negative velocity too (row of 4.76 to 4.79), the exactly "
-    "moving wedge and molecular dynamics (Fig. 6.5) confirm the map at mu = 0.1; the crossing at mu = 0.1 goes on to mu = "
+    "moving wedge and molecular dynamics (Fig. 6.5) confirm the map at mu = 0.1; the crossing at mu = 0.1 "
+    "goes on to mu = "
     "0.15 without a jump, so that the printed change of regime is one of the range of tilts that was looked at"
 )
 

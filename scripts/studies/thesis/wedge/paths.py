@@ -66,7 +66,8 @@ def make(laboratory: Laboratory, _quick: bool, _seeds: int | None = None) -> Pro
         for second, angle in enumerate(column)
     ]
     notes = [
-        "a wedge of 120 degrees in the place of the two fixed disks, exactly moving at 200 Hz, event-driven; disk of 2.5 cm "
+        "a wedge of 120 degrees in the place of the two fixed disks, exactly moving at 200 Hz, event-driven; "
+        "disk of 2.5 cm "
         "diameter, angle each second for five minutes (P 6.1)",
         "not given by P: e_n = 0.9, mu = 0.1, kappa = 0.773 as in its simulations; Gamma = 1.2 and 1.5",
         f"{len(SEEDS)} seeds for each tilt, {len(UPRIGHT_SEEDS)} without tilt, none mirrored; errors from seed to seed",
@@ -150,7 +151,9 @@ def _depends(speeds: dict[tuple[float, float], Estimate]) -> Statement:
         "6.1, Fig. 6.2",
         "the average velocity depends on tilt and on the intensity of the driving",
         _listed({case: e for case, e in speeds.items() if case[0] > 0.0}, " rad/s"),
-        every(judged, "differences between 8 and 16 degrees, and between both intensities, are above zero by two errors"),
+        every(
+            judged, "differences between 8 and 16 degrees, and between both intensities, are above zero by two errors"
+        ),
     )
 
 
@@ -178,5 +181,7 @@ def _random(paths: Paths, upright: Sequence[tuple[float, float]], tilted: Sequen
         "exponent of the mean squared change of angle with the lag, 1 to 32 s: "
         + _listed(still, "; tilted: ")
         + _listed(turning, ""),
-        every([near(e, 1.0, 0.25) for e in still.values()], "exponent within 0.25 of 1, a random walk (2 is ballistic)"),
+        every(
+            [near(e, 1.0, 0.25) for e in still.values()], "exponent within 0.25 of 1, a random walk (2 is ballistic)"
+        ),
     )

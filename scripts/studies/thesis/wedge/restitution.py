@@ -54,7 +54,8 @@ def statements(found: Curves) -> list[Statement]:
         Statement.judged(
             "6.3.4, Fig. 6.8",
             "smaller e_n gives lower rotational velocities",
-            f"largest and smallest R omega / (A omega_b): {text}; at {ordered} of {decided} tilts where e_n = 0.5 and 1.0 "
+            f"largest and smallest R omega / (A omega_b): {text}; at {ordered} of {decided} tilts where e_n = "
+            "0.5 and 1.0 "
             "differ by 3 errors the first turns slower",
             every(
                 [
@@ -62,7 +63,8 @@ def statements(found: Curves) -> list[Statement]:
                     rises([Estimate(-p.mean, p.error) for p in bottoms.values()]),
                     true(ordered == decided, ""),
                 ],
-                "the fastest rotation rises with e_n in both senses (a rising curve fits with p > 0.01, its end above its "
+                "the fastest rotation rises with e_n in both senses (a rising curve fits with p > 0.01, its "
+                "end above its "
                 "start by three errors), and at no tilt is e_n = 0.5 faster than 1.0",
             ),
             "the zero crossing moves with e_n, and near the crossing of one curve the other one turns faster",
@@ -74,7 +76,7 @@ def statements(found: Curves) -> list[Statement]:
 
 
 def _ordered(found: Curves) -> tuple[int, int]:
-    """Tilts at which the speed at the smallest e_n is below that at the largest, of those where it differs for certain."""
+    """Tilts at which the smallest e_n turns slower than the largest, of those where they differ for certain."""
     slow, fast = found[min(found)], found[max(found)]
     ordered = decided = 0
     for a, b in zip(slow.points, fast.points, strict=True):

@@ -34,7 +34,7 @@ def rms(points: Sequence[Estimate]) -> Estimate:
 
 
 def alike(differences: Sequence[Estimate], strongest: float, lost: int = 0) -> tuple[str, Judgement]:
-    """Whether curves are one: chi^2 of differences from zero, `lost` degrees fitted, and how small they are for certain."""
+    """Whether curves are one: chi^2 of differences, `lost` degrees fitted, and how small they are for certain."""
     ratio, p = chi_square([d.mean for d in differences], [d.error for d in differences], lost)
     reach = max(abs(d.mean) + SIGNIFICANCE * d.error for d in differences)
     rule = (

@@ -88,7 +88,8 @@ def statements(found: Curves, limit: Curve) -> list[Statement]:
             "the limit kappa -> inf is almost indistinguishable from kappa = 100",
             "less the limit: " + "; ".join(f"kappa = {k:g}: {text}" for k, (text, _) in compared.items()),
             below(rms(less(found[100.0], limit)), ALMOST * strongest),
-            "the approximation leaves out the velocity that the tangential spring gives back; with kappa ten times larger "
+            "the approximation leaves out the velocity that the tangential spring gives back; with kappa ten "
+            "times larger "
             "the difference falls as shown",
         ),
         _tendency(found),

@@ -65,9 +65,11 @@ def thinned(laboratory: Laboratory) -> Table:
     def compute() -> tuple[Table, float]:
         begun = time.perf_counter()
         whole = example(replace(laboratory, records=None), "tangential_restitution")
-        return {name: column[::THINNED] for name, column in whole.items()}, time.perf_counter() - begun
+        kappa = whole["stiffness_ratio"]
+        chosen = np.concatenate([np.flatnonzero(kappa == value)[::THINNED] for value in (*LINES, BEYOND)])
+        return {name: column[chosen] for name, column in whole.items()}, time.perf_counter() - begun
 
-    return laboratory.computed(f"example tangential_restitution, every {THINNED}rd point", compute)
+    return laboratory.computed(f"example tangential_restitution, {THINNED}rd points of each curve", compute)
 
 
 def integrated(laboratory: Laboratory, kappa: float) -> tuple[Numbers, Numbers]:

@@ -23,7 +23,7 @@ SLIPPERY = 0.05
 """Up to here the curves have these tilts too."""
 STIFFER = 10.0
 """Tangential stiffness of a trial, whether e_t depends on it at small mu, over that of the figure."""
-TRIAL_MU, TRIAL_TILTS = 0.001, (8.0, 16.0, 24.0, 28.0, 29.5)
+TRIAL_MU, TRIAL_TILTS = 0.001, (8.0, 16.0, 24.0, 28.0, 29.7)
 SATURATED = 0.1
 """Part by which a saturated height may still change for a factor 5 of mu."""
 

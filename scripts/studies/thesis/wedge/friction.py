@@ -145,10 +145,8 @@ def _rough(found: Curves) -> list[Statement]:
 
 
 ROUGH = (
-    "not found in the paper's e_t: its printed recipe gives a negative velocity too (row of 4.76 to 4.79), the exactly "
-    "moving wedge and molecular dynamics (Fig. 6.5) confirm the map at mu = 0.1; the crossing at mu = 0.1 "
-    "goes on to mu = "
-    "0.15 without a jump, so that the printed change of regime is one of the range of tilts that was looked at"
+    "not found out: the printed recipe for e_t, the one known difference, gives a negative velocity too (row of 4.76 to "
+    "4.79); with larger mu the statement holds, so that the change of regime lies between 0.15 and 0.3 here"
 )
 
 

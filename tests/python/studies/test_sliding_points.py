@@ -40,7 +40,7 @@ def noisy(mean: float, error: float, count: int = 16, seed: int = 3) -> Numbers:
 
 def test_without_tilt_no_run_is_mirrored_and_seeds_are_its_own() -> None:
     runs = [run for group in UPRIGHT.groups(EFFORT) for run in group]
-    assert len(runs) == 32
+    assert len(runs) == 24
     assert all(dict(run.settings)["support.noise"] == AS_DRAWN for run in runs)
     assert all(len(group) == 2 for group in TILTED.groups(EFFORT))
     elsewhere = [run for group in Place(0.0, 6e-5).groups(EFFORT) for run in group]

@@ -104,7 +104,7 @@ def test_statements_page_keeps_bars_in_their_cells(tmp_path: Path) -> None:
     product = Product("Title", [{"x": 1.0}], figure, [statement], ["a note"])
     _, _, page = write(product, tmp_path / "figure", "command", "footer")
     row = next(line for line in page.read_text().splitlines() if line.startswith("| 1.1"))
-    assert row == r"| 1.1 | \|x\| small | \|x\| = 0.1 +- 0.2 | agrees |"
+    assert row == r"| 1.1 | \|x\| small | \|x\| = 0.1 +- 0.2 | agrees |  |"
 
 
 def test_every_figure_has_a_maker() -> None:
@@ -147,4 +147,5 @@ def test_small_figure_from_end_to_end(laboratory: Laboratory, tmp_path: Path, mo
     assert len(rows) == 9 * 3
     assert picture.stat().st_size > 10_000
     assert "| agrees |" in page.read_text()
-    assert all(s.verdict is Verdict.AGREES for s in product.statements), product.statements
+    # So short a run leaves some open.
+    assert not {s.verdict for s in product.statements} & {Verdict.DISAGREES, Verdict.PARTLY}, product.statements

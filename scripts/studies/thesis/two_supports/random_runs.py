@@ -31,7 +31,7 @@ class Effort:
     seconds: float
     """Of each run, after SETTLING."""
     seeds: int
-    """Of a tilted disk; without tilt there are four times as many, none of them mirrored."""
+    """Of a tilted disk; without tilt there are three times as many, none of them mirrored."""
 
 
 QUICK, FULL = Effort(3.0, 4), Effort(20.0, 8)
@@ -71,7 +71,7 @@ class Place:
     def groups(self, effort: Effort) -> list[list[Run]]:
         """Runs that share their chance: pairs of a tilted disk, single runs without tilt."""
         if self.tilt == 0.0:
-            return [[self.run(seed, AS_DRAWN, effort)] for seed in self.seeds(4 * effort.seeds)]
+            return [[self.run(seed, AS_DRAWN, effort)] for seed in self.seeds(3 * effort.seeds)]
         noises = (AS_DRAWN, MIRRORED)
         return [[self.run(seed, noise, effort) for noise in noises] for seed in self.seeds(effort.seeds)]
 

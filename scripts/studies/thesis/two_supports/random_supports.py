@@ -38,7 +38,7 @@ def _effort(quick: bool, seeds: int | None) -> Effort:
 def _notes(effort: Effort) -> list[str]:
     return [
         "omega_b = 20 pi rad/s, c = 0.5, k_n = 1e3 N/m, k_t = 1e6 N/m, gamma_n = 10 kg/s, mu = 0.1, g = 10 m/s^2",
-        f"each point: {effort.seeds} seeds, each as drawn and mirrored; without tilt {4 * effort.seeds} seeds "
+        f"each point: {effort.seeds} seeds, each as drawn and mirrored; without tilt {3 * effort.seeds} seeds "
         "as drawn, "
         f"since mirrored pairs cancel there by construction; {effort.seconds:g} s after {SETTLING:g} s",
         "seeds of a point: from 1e4 A_b / 1e-7 m + 100 theta_T / 0.01 pi + 1 on, so that points are independent; error "

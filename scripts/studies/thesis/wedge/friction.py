@@ -145,7 +145,8 @@ def _rough(found: Curves) -> list[Statement]:
 
 
 ROUGH = (
-    "not found out: the printed recipe for e_t, the one known difference, gives a negative velocity too (row of 4.76 to "
+    "not found out: the printed recipe for e_t, the one known difference, gives a negative velocity too (row "
+    "of 4.76 to "
     "4.79); with larger mu the statement holds, so that the change of regime lies between 0.15 and 0.3 here"
 )
 

@@ -21,9 +21,9 @@ RATIOS = {0.1: "--", 1.0: ":", 10.0: "-."}
 """kappa, and lines as in P Fig. 4.5."""
 APPROACH, SLIP = 1.0, 0.2
 """|u_n| and u_t [m/s]."""
-FLIGHT = 1e-3
-"""Time of the fall in the simulation [s], ten times that of the contact."""
-SAMPLE, SECONDS = 1e-6, 1.12e-3
+FLIGHT = 1e-2
+"""Time of the fall in the simulation [s], a hundred times that of the contact."""
+SAMPLE, SECONDS = 1e-6, 1.012e-2
 """Between rows, and of the run [s]."""
 LOAD = APPROACH / FLIGHT
 """Gravity of the simulation [m/s^2]."""
@@ -75,7 +75,7 @@ def make(laboratory: Laboratory, _quick: bool, _seeds: int | None = None) -> Pro
         "is used",
         f"simulation: the scene three_disk with the left wall horizontal, gravity {LOAD:g} m/s^2, so that the "
         "fall takes "
-        "1 ms; the equations beside it have this gravity too",
+        "10 ms; the equations beside it have this gravity too",
         "no chance, hence no seeds and no error bars",
     ]
     return Product("Figure 4.4: forces during an impact", rows, draw(times, forces, tables, runs), stated, notes)

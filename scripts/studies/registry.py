@@ -19,7 +19,9 @@ MODULES = {
     "3.10": "packing.paths:event_driven",
     "3.11": "packing.comparison",
     "4.3": "two_supports.region",
+    "4.4": "impact.forces",
     "4.5": "restitution",
+    "constant-forces": "two_supports.constant_forces",
     "5.1": "two_supports.regimes",
     "5.2": "two_supports.amplitude:linear",
     "5.3": "two_supports.amplitude:logarithmic",
@@ -29,6 +31,8 @@ MODULES = {
     "5.7": "two_supports.amplitude:closed_form",
     "5.8": "two_supports.random_supports:against_amplitude",
     "5.9": "two_supports.random_supports:against_tilt",
+    "6.2": "wedge.paths",
+    "three-disks": "wedge.three_disks",
     "6.3": "wedge.dynamics",
     "6.4": "wedge.collapse",
     "6.5": "wedge.engines",
@@ -56,7 +60,7 @@ STUDIES = {
 """Figure of F and the study in `studies.ratchet` that makes it."""
 RECORDS = dict.fromkeys(("3.6", "3.7", "3.8", "3.9", "3.11"), "packing")
 """Figures that share a record, and its name; others have that of their module."""
-PRECISE = frozenset({"4.3", "4.5", "5.1", "5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "closed-form", "engines"})
+PRECISE = frozenset({"4.4", "5.1", "5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "closed-form", "engines"})
 """Figures without chance, whose runs are kept in double precision."""
 NUMBERS = (*MODULES, *STUDIES)
 GROUPS = {"all": tuple(MODULES), "F": tuple(STUDIES)}

@@ -125,4 +125,5 @@ def test_small_figure_from_end_to_end(laboratory: Laboratory, tmp_path: Path, mo
     assert len(rows) == 9 * 3
     assert picture.stat().st_size > 10_000
     assert "| agrees |" in page.read_text()
-    assert all(s.verdict is Verdict.AGREES for s in product.statements), product.statements
+    # So short a run leaves some open.
+    assert not {s.verdict for s in product.statements} & {Verdict.DISAGREES, Verdict.PARTLY}, product.statements

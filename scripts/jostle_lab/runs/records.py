@@ -51,12 +51,10 @@ class Recorded(dict[str, NDArray[np.float64]]):
         """Fetch the table and take what is not there yet."""
         if self._fetch is None:
             raise LabError(f"{name} is not kept of the run `{self._name}`. Compute its figure anew.")
-        whole = self._fetch()
-        if name not in whole:
-            raise LabError(f"The run `{self._name}` has no column {name}. Is the program up to date?")
-        self._fetch = None
-        for other, column in whole.items():
+        for other, column in self._fetch().items():
             self.setdefault(other, column)
+        if name not in self:
+            raise LabError(f"The run `{self._name}` has no column {name}. Is the program up to date?")
         return dict.__getitem__(self, name)
 
 

@@ -1,17 +1,21 @@
 """P 2.1 and 2.2: how packings begin, time steps, damping; arithmetic and short runs."""
 
 import math
+import tempfile
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from jostle_lab.plots.style import WIDTH
+from jostle_lab.programs import output_of
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.runs.run import Run
 from jostle_lab.statements import Product, Statement
 from jostle_lab.statistics.estimates import Estimate, Numbers
 from jostle_lab.statistics.rotation import RPM
+from jostle_lab.tables import Table, parse_csv, read_text_rows
 from jostle_lab.verdicts import above, below, every, exact, true
 from studies.thesis.packing.runs import DISKS, MOLECULAR, shaken
 
@@ -46,10 +50,7 @@ def restitution(stiffness: float, damping: float, effective_mass: float) -> floa
 
 def make(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Product:
     """First contacts, steps and dampings."""
-    start = Run("packing", MOLECULAR.engine, 1e-6, 1e-6, (("seed", 1),))
-    places = laboratory.run([start], "2.1")[start]
-    centres = np.column_stack([[places[f"disk.{axis}[{i}]"][0] for i in range(1, DISKS + 1)] for axis in ("x", "y")])
-    radii = np.array([places[f"disk.radius[{i}]"][0] for i in range(1, DISKS + 1)])
+    centres, radii = initial_packing(laboratory)
     squares = _squares(laboratory, 2 if quick else PACKINGS)
     rows: list[dict[str, Any]] = [
         {"normal_damping": d, "gamma": g, "mean_square_rpm": e.mean, "error": e.error} for (d, g), e in squares.items()
@@ -64,6 +65,25 @@ def make(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Prod
             "initial packing: seed 1, before the first step",
         ],
     )
+
+
+def initial_packing(laboratory: Laboratory) -> tuple[Numbers, Numbers]:
+    """Centres, shape (disks, 2), and radii [m] before the first step; radii are parameters, which are no columns."""
+
+    def compute() -> tuple[Table, float]:
+        with tempfile.TemporaryDirectory(prefix="jostle-") as folder:
+            output = Path(folder) / "run.csv"
+            run = Run("packing", MOLECULAR.engine, 1e-6, 1e-6, (("seed", 1),))
+            output_of([laboratory.program, *run.arguments(), "--output", output])
+            columns = parse_csv(output.read_text())
+            given = read_text_rows([output.with_suffix(".parameters.csv")])
+        values = {row["name"]: row["value"] for row in given}
+        each = range(1, DISKS + 1)
+        table = {axis: np.array([columns[f"disk.{axis}[{i}]"][0] for i in each]) for axis in ("x", "y")}
+        return {**table, "radius": np.array([float(values[f"disk.radius[{i}]"]) for i in each])}, 0.0
+
+    found = laboratory.computed("initial packing, seed 1", compute)
+    return np.column_stack([found["x"], found["y"]]), found["radius"]
 
 
 def _squares(laboratory: Laboratory, packings: int) -> dict[tuple[float, float], Estimate]:

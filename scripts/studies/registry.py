@@ -9,6 +9,11 @@ from jostle_lab.statements import Product
 Maker = Callable[[Laboratory, bool, int | None], Product]
 
 MODULES = {
+    "camera": "laboratory.figures:sensors",
+    "3.1": "laboratory.figures:paths",
+    "3.2": "laboratory.figures:squares",
+    "3.3": "laboratory.figures:steady",
+    "3.4": "laboratory.figures:distributions",
     "3.10": "packing.paths",
     "3.11": "packing.comparison",
     "4.3": "two_supports.region",

@@ -21,7 +21,7 @@ THESIS_SLOPES = {LOW: 3.94, HIGH: 1.00}
 PLACES = 120
 """Tried for a break."""
 BEFORE_A_BREAK = 4
-"""Least number of points on each side of it."""
+"""Least number of points on each side of it, itself included."""
 
 
 @dataclass(frozen=True)
@@ -88,11 +88,13 @@ class Regression:
 
     def power_break(self, end: float) -> Estimate:
         """Gamma at which two power laws meet that fit the curve best, up to Gamma = `end`."""
-        return self.estimate(lambda x, y: broken_line(np.log(x), np.log(y), math.log(end)))
+        line = BrokenLine(np.log(self.at), math.log(end))
+        return self.estimate(lambda _, y: math.exp(line.place(np.log(y))))
 
     def level_break(self, end: float) -> Estimate:
         """Gamma at which two straight lines of the quantity against ln Gamma meet that fit best."""
-        return self.estimate(lambda x, y: broken_line(np.log(x), y, math.log(end)))
+        line = BrokenLine(np.log(self.at), math.log(end))
+        return self.estimate(lambda _, y: math.exp(line.place(y)))
 
 
 def within(x: Numbers, range_: Range) -> NDArray[np.bool_]:
@@ -108,17 +110,27 @@ def slope(x: Numbers, y: Numbers, range_: Range) -> float:
     return float(np.polyfit(np.log(x[inside]), np.log(y[inside]), 1)[0])
 
 
-def broken_line(x: Numbers, y: Numbers, end: float) -> float:
-    """Where two joined straight lines meet that fit y best up to x = `end`, by least squares; exp of that x.
+class BrokenLine:
+    """Two joined straight lines through points at x, fitted by least squares, and where they meet.
 
-    Not a number if fewer than twice `BEFORE_A_BREAK` points are there.
+    Args:
+        x: of the points, rising, shape (points,).
+        end: points beyond it are left out.
+
     """
-    x, y = x[x <= end], y[x <= end]
-    if len(x) < 2 * BEFORE_A_BREAK:
-        return math.nan
-    best = (math.inf, math.nan)
-    for place in np.linspace(x[BEFORE_A_BREAK - 1], x[-BEFORE_A_BREAK], PLACES):
-        columns = np.column_stack((np.ones_like(x), np.minimum(x - place, 0.0), np.maximum(x - place, 0.0)))
-        solution, *_ = np.linalg.lstsq(columns, y, rcond=None)
-        best = min(best, (float(np.sum((columns @ solution - y) ** 2)), float(place)))
-    return math.exp(best[1])
+
+    def __init__(self, x: Numbers, end: float) -> None:
+        self._inside = x <= end
+        inside = x[self._inside]
+        if len(inside) < 2 * BEFORE_A_BREAK:
+            self._places, self._bases = np.array([math.nan]), np.zeros((1, len(inside), 1))
+            return
+        self._places = np.linspace(inside[BEFORE_A_BREAK - 1], inside[-BEFORE_A_BREAK], PLACES)
+        away = inside - self._places[:, None]
+        columns = np.stack((np.ones_like(away), np.minimum(away, 0.0), np.maximum(away, 0.0)), axis=-1)
+        self._bases = np.linalg.qr(columns)[0]
+
+    def place(self, y: Numbers) -> float:
+        """Where the lines of the best fit meet; not a number for less than twice `BEFORE_A_BREAK` points."""
+        explained = np.sum(np.einsum("pnc,n->pc", self._bases, y[self._inside]) ** 2, axis=1)
+        return float(self._places[np.argmax(explained)])

@@ -77,10 +77,15 @@ def nearest_neighbours_resampled(
         resamples: number of resamples, and seed of the generator.
 
     """
-    members = [np.flatnonzero(packing == number) for number in np.unique(packing)]
+    order = np.argsort(np.abs(at[:, None] - x[None, :]), axis=1, kind="stable")
+    numbers, member = np.unique(packing, return_inverse=True)
+    sorted_member, sorted_y = member[order], y[order]
     generator = np.random.default_rng(resamples)
     curves = np.empty((resamples, len(at)))
     for curve in curves:
-        drawn = np.concatenate([members[i] for i in generator.integers(len(members), size=len(members))])
-        curve[:] = nearest_neighbours_regression(x[drawn], y[drawn], neighbours, at)
+        times = np.bincount(generator.integers(len(numbers), size=len(numbers)), minlength=len(numbers))
+        weight = times[sorted_member]
+        # A point counts as often as its packing was drawn, until there are `neighbours`.
+        counted = np.clip(neighbours - (np.cumsum(weight, axis=1) - weight), 0, weight)
+        curve[:] = np.sum(counted * sorted_y, axis=1) / neighbours
     return curves

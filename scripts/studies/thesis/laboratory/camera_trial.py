@@ -23,7 +23,7 @@ RESOLUTIONS = (480.0, 960.0, 1920.0, 3840.0)
 NOISES = (0.0, 2.0, 8.0, 20.0)
 VIGNETTINGS = (0.0, 0.5, 0.7)
 """Beside the default one."""
-FRAMES = 25
+FRAMES = 10
 """Pictures of each setting, at the strongest and at the weakest drive."""
 
 

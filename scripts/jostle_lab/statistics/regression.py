@@ -86,15 +86,15 @@ class Regression:
         """Mean of the curve within a range of Gamma."""
         return self.estimate(lambda x, y: float(y[within(x, range_)].mean()))
 
-    def power_break(self, end: float) -> Estimate:
-        """Gamma at which two power laws meet that fit the curve best, up to Gamma = `end`."""
-        line = BrokenLine(np.log(self.at), math.log(end))
-        return self.estimate(lambda _, y: math.exp(line.place(np.log(y))))
+    def power_break(self, range_: Range) -> Estimate:
+        """Gamma at which two power laws meet that fit the curve best within a range of Gamma."""
+        line = BrokenLine(self.at, range_)
+        return self.estimate(lambda _, y: line.place(np.log(y)))
 
-    def level_break(self, end: float) -> Estimate:
-        """Gamma at which two straight lines of the quantity against ln Gamma meet that fit best."""
-        line = BrokenLine(np.log(self.at), math.log(end))
-        return self.estimate(lambda _, y: math.exp(line.place(y)))
+    def level_break(self, range_: Range) -> Estimate:
+        """Gamma at which two straight lines of the quantity against ln Gamma meet that fit best within a range."""
+        line = BrokenLine(self.at, range_)
+        return self.estimate(lambda _, y: line.place(y))
 
 
 def within(x: Numbers, range_: Range) -> NDArray[np.bool_]:
@@ -111,17 +111,17 @@ def slope(x: Numbers, y: Numbers, range_: Range) -> float:
 
 
 class BrokenLine:
-    """Two joined straight lines through points at x, fitted by least squares, and where they meet.
+    """Two joined straight lines against ln x, fitted by least squares, and where they meet.
 
     Args:
-        x: of the points, rising, shape (points,).
-        end: points beyond it are left out.
+        x: of the points, positive and rising, shape (points,).
+        range_: points outside are left out.
 
     """
 
-    def __init__(self, x: Numbers, end: float) -> None:
-        self._inside = x <= end
-        inside = x[self._inside]
+    def __init__(self, x: Numbers, range_: Range) -> None:
+        self._inside = within(x, range_)
+        inside = np.log(x[self._inside])
         if len(inside) < 2 * BEFORE_A_BREAK:
             self._places, self._bases = np.array([math.nan]), np.zeros((1, len(inside), 1))
             return
@@ -133,4 +133,4 @@ class BrokenLine:
     def place(self, y: Numbers) -> float:
         """Where the lines of the best fit meet; not a number for less than twice `BEFORE_A_BREAK` points."""
         explained = np.sum(np.einsum("pnc,n->pc", self._bases, y[self._inside]) ** 2, axis=1)
-        return float(self._places[np.argmax(explained)])
+        return math.exp(float(self._places[np.argmax(explained)]))

@@ -50,7 +50,10 @@ class Data:
         return self.table[name]
 
     def by_disk(self, name: str) -> NDArray[np.float64]:
-        """`disk_velocity` [RPM] or `disk_correlation`, both by camera, shape (packings x amplitudes, disks)."""
+        """`disk_velocity` [RPM] or `disk_correlation` by camera, shape (packings x amplitudes, disks).
+
+        Longer records have `disk_deviation` (sigma_a), too.
+        """
         return self.table[name].reshape(len(self.table["seed"]), -1)
 
     def regression(self, quantity: str, eye: str) -> Regression:
@@ -105,7 +108,7 @@ def counted(results: Results, effort: Effort) -> Table:
     """Table of an effort's results folder."""
     interval = 1.0 / results.setup["camera"]["frame_rate"]
     columns: dict[str, list[float]] = {}
-    velocities, correlations = [], []
+    velocities, correlations, deviations = [], [], []
     for seed in results.seeds:
         for row in results.amplitudes_of(seed):
             _, angles = results.angles(seed, row["amplitude"])
@@ -133,14 +136,18 @@ def counted(results: Results, effort: Effort) -> Table:
             for name, value in numbers.items():
                 columns.setdefault(name, []).append(value)
             velocities.append(_rounded(by_eye["camera"].mean_velocity / RPM, VELOCITY_BITS))
-            correlations.append(np.round(by_eye["camera"].correlation * CORRELATION_STEPS) / CORRELATION_STEPS)
+            correlations.append(_stepped(by_eye["camera"].correlation))
+            deviations.append(_stepped(by_eye["camera"].adjusted_deviation))
     frames = _frames(results, effort)
     table = {name: np.array(values) for name, values in columns.items()}
     table["disk_velocity"], table["disk_correlation"] = np.concatenate(velocities), np.concatenate(correlations)
     spent, simulated = (sum(s[name] for s in results.summaries) for name in ("processor_seconds", "simulated_seconds"))
     table["cost"] = np.array([spent / simulated])
     table["recording"] = np.array([(frames - 1) * interval])
-    return {**table, **(_paths(results) | _pieces(results, interval) if effort.paths else {})}
+    if not effort.paths:
+        return table
+    table["disk_deviation"] = np.concatenate(deviations)
+    return {**table, **_paths(results), **_pieces(results, interval)}
 
 
 KEPT = (
@@ -187,6 +194,11 @@ def _steadiness(turned: Rotation) -> dict[str, float]:
         "deviation": float(np.mean(turned.adjusted_deviation)),
         "fastest": float(np.max(np.abs(turned.mean_velocity))) / RPM,
     }
+
+
+def _stepped(shares: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Numbers from 0 to 1 in `CORRELATION_STEPS`."""
+    return np.asarray(np.round(shares * CORRELATION_STEPS) / CORRELATION_STEPS)
 
 
 def _rounded(values: NDArray[np.float64], bits: int) -> NDArray[np.float64]:

@@ -256,7 +256,7 @@ def reorganisations(schedule: Data, longer: Data) -> list[Statement]:
         parts.append(below(rate, 1.0))
     counts = np.concatenate([data["moved"][data["gamma_measured"] < 2.5] for data in (schedule, longer)])
     happened = counts[counts > 0]
-    few = _share(happened < 10) if len(happened) else Estimate(math.nan, math.nan)
+    few = share_of(happened < 10) if len(happened) else Estimate(math.nan, math.nan)
     most = happened.max() if len(happened) else 0
     gammas = ", ".join(
         f"{g:.2f}: {n:.0f}" for g, n in zip(longer["gamma_measured"], longer["moved"], strict=True) if n > 0
@@ -285,7 +285,7 @@ def reorganisations(schedule: Data, longer: Data) -> list[Statement]:
     ]
 
 
-def _share(holds: NDArray[np.bool_]) -> Estimate:
+def share_of(holds: NDArray[np.bool_]) -> Estimate:
     """Share and its binomial error."""
     share, count = float(np.mean(holds)), len(holds)
     return Estimate(share, math.sqrt(max(share * (1.0 - share), 1.0 / (count + 2)) / count))

@@ -21,6 +21,8 @@ SAME_SLOPE, SAME_BREAK = 0.2, 0.2
 """What counts as the same exponent (P gives no error and rounds 3.94 and 3.85 to 4), and as the same Gamma."""
 NAMES = {"true": "in truth", "camera": "as measured", "pictures": "by pictures"}
 STYLES = {"true": ("o", "0.0", "-"), "camera": ("s", "0.45", "--"), "pictures": ("^", "#d07a1f", ":")}
+MIDDLE = 0.5
+"""Gamma that cuts the lower range in two: a power law has the same exponent in both."""
 PRINTED_AMPLITUDES, PRINTED_POINTS = 37, 55500
 
 
@@ -177,10 +179,14 @@ def _slope(found: dict[str, Regression], eye: str, range_: Range) -> Statement:
             else "without the camera's limit our disks go on to speed up; P has no truth to compare with"
         )
     )
+    parts = ""
+    if range_ == LOW:
+        below_, above_ = curve.slope((LOW[0], MIDDLE)), curve.slope((MIDDLE, LOW[1]))
+        parts = f"; {below_} below Gamma = {MIDDLE:g}, {above_} above"
     return Statement.judged(
         "3.1, Fig. 3.2",
         f"{where}: <omega^2> grows as Gamma^{printed:.2f}",
-        f"exponent {NAMES[eye]} {ours}; with points evenly in Gamma {even[0]:.2f}, in ln Gamma {even[1]:.2f}",
+        f"exponent {NAMES[eye]} {ours}{parts}; with points evenly in Gamma {even[0]:.2f}, in ln Gamma {even[1]:.2f}",
         near(ours, printed, SAME_SLOPE),
         cause,
     )
@@ -210,12 +216,14 @@ def aliasing_of_slope(found: dict[str, Regression]) -> Statement:
 
 
 def _transition(curve: Regression, name: str) -> Statement:
-    ours = curve.power_break(HIGH[1])
+    ours, upper = curve.power_break((0.0, HIGH[1])), curve.power_break((MIDDLE, HIGH[1]))
     low, high = ours.mean - 2.0 * ours.error, ours.mean + 2.0 * ours.error
     return Statement.judged(
         "3.1, Fig. 3.2",
         "the exponent changes at Gamma = 1.6",
-        f"{name}: two power laws of the regression meet at Gamma = {ours}, 95 %: {low:.2f} to {high:.2f}",
+        f"{name}: two power laws of the regression meet at Gamma = {ours}, 95 %: {low:.2f} to {high:.2f}; of "
+        "Gamma above "
+        f"{MIDDLE:g} only, at {upper}",
         near(ours, 1.6, SAME_BREAK),
         "ours changes where the disks leave the bottom, Gamma = 1, as P's simulations do (Fig. 3.6); P suspects "
         "stiffness "

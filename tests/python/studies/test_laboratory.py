@@ -10,7 +10,7 @@ from jostle_lab.sensors.camera import photograph, unwrap
 from jostle_lab.verdicts import Verdict
 from studies.registry import MODULES, maker
 from studies.thesis.laboratory import apparatus, histograms, paths, regression, steadiness
-from studies.thesis.laboratory.data import EYES, Data, unwrapped_as_printed
+from studies.thesis.laboratory.data import EYES, Data, compact, unwrapped_as_printed
 from studies.thesis.laboratory.shaking import LISTED, LONGER, QUICK, SCHEDULE
 
 PACKINGS, DISKS = 25, 60
@@ -229,6 +229,17 @@ def test_the_printed_rule_is_the_pseudocode_of_the_thesis():
     np.testing.assert_allclose(np.degrees(unwrapped_as_printed(angles))[:, 0], theta, atol=1e-9)
 
 
+def test_what_is_kept_is_near_to_what_was_counted():
+    kept = compact(PRINTED.table)
+    for name, values in PRINTED.table.items():
+        if name in {"disk_correlation", "disk_deviation"}:
+            np.testing.assert_allclose(kept[name], values, atol=0.005 + 1e-12)
+        else:
+            np.testing.assert_allclose(kept[name], values, rtol=0.04 if name == "disk_velocity" else 3e-4)
+    again = compact(kept)
+    assert all(np.array_equal(again[name], kept[name]) for name in kept)
+
+
 def test_the_figures_are_registered_in_order():
     numbers = list(MODULES)
     assert numbers[: numbers.index("3.4") + 1] == ["camera", "3.1", "3.2", "3.3", "3.4"]
@@ -239,4 +250,3 @@ def test_the_figures_are_registered_in_order():
 def test_efforts_are_kept_under_names_of_their_own():
     assert len({effort.key() for effort in (SCHEDULE, LONGER, QUICK)}) == 3
     assert len(SCHEDULE.amplitudes) == 32
-    assert SCHEDULE.packings == 25

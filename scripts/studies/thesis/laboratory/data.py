@@ -27,9 +27,10 @@ from studies.thesis.laboratory.shaking import Effort, shake
 EYES = ("true", "camera", "pictures")
 MOVED = 1e-3
 """Way of a disk's centre over a record that counts as a change of place [m]: a twentieth of the mean radius."""
-VELOCITY_BITS = 8
-CORRELATION_STEPS = 200
-"""Precision at which disk by disk is kept, which makes the record small."""
+BITS, DISK_BITS = 12, 5
+"""Of the mantissa of what is kept, and of the disks' velocities: that makes the record small."""
+STEPS = 100
+"""In which the disks' rho^2 and sigma_a are kept, from 0 to 1."""
 PATH_SAMPLE = 3
 """Frames from one kept point of a path to the next."""
 PATH_STEPS = 200
@@ -92,7 +93,7 @@ def data(laboratory: Laboratory, effort: Effort) -> Data:
         # Pictures take minutes, and figures share them.
         kept = Memory(laboratory.kept, verbose=0).cache(counted_folder)
         table: Table = kept(folder, effort, fingerprint(fmu))
-        return table, sum(summary["processor_seconds"] for summary in results.summaries)
+        return compact(table), sum(summary["processor_seconds"] for summary in results.summaries)
 
     table = laboratory.computed(effort.key(), compute)
     return Data(dict(table.items()), effort)
@@ -135,9 +136,9 @@ def counted(results: Results, effort: Effort) -> Table:
                 numbers |= {f"{name}_{eye}": value for name, value in _steadiness(turned).items()}
             for name, value in numbers.items():
                 columns.setdefault(name, []).append(value)
-            velocities.append(_rounded(by_eye["camera"].mean_velocity / RPM, VELOCITY_BITS))
-            correlations.append(_stepped(by_eye["camera"].correlation))
-            deviations.append(_stepped(by_eye["camera"].adjusted_deviation))
+            velocities.append(by_eye["camera"].mean_velocity / RPM)
+            correlations.append(by_eye["camera"].correlation)
+            deviations.append(by_eye["camera"].adjusted_deviation)
     frames = _frames(results, effort)
     table = {name: np.array(values) for name, values in columns.items()}
     table["disk_velocity"], table["disk_correlation"] = np.concatenate(velocities), np.concatenate(correlations)
@@ -196,14 +197,16 @@ def _steadiness(turned: Rotation) -> dict[str, float]:
     }
 
 
-def _stepped(shares: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Numbers from 0 to 1 in `CORRELATION_STEPS`."""
-    return np.asarray(np.round(shares * CORRELATION_STEPS) / CORRELATION_STEPS)
+def compact(table: Table) -> Table:
+    """What is kept of a table: fewer digits."""
+    return {name: _fewer_digits(name, values) for name, values in table.items()}
 
 
-def _rounded(values: NDArray[np.float64], bits: int) -> NDArray[np.float64]:
-    """To `bits` of the mantissa."""
+def _fewer_digits(name: str, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    if name in {"disk_correlation", "disk_deviation"}:
+        return np.asarray(np.round(values * STEPS) / STEPS)
     mantissa, exponent = np.frexp(values)
+    bits = DISK_BITS if name == "disk_velocity" else BITS
     return np.asarray(np.ldexp(np.round(np.ldexp(mantissa, bits)), exponent - bits))
 
 

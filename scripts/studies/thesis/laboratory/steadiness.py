@@ -13,7 +13,7 @@ from jostle_lab.statistics.regression import HIGH, Regression, within
 from jostle_lab.statistics.rotation import squared_correlation
 from jostle_lab.verdicts import above, every, falls, near, rises
 from studies.thesis.laboratory.data import EYES, Data
-from studies.thesis.laboratory.paths import mean_gammas, notes, over_packings
+from studies.thesis.laboratory.paths import mean_gammas, more_packings, notes, over_packings
 from studies.thesis.laboratory.regression import NAMES, STYLES
 
 PRINTED = {"correlation": 0.95, "deviation": 0.4}
@@ -118,7 +118,8 @@ def _level(found: Curves, quantity: str, data: Data, longer: Data) -> Statement:
         f"the disks); in records of {data.recording():g} s "
         f"{', '.join(f'{NAMES[eye]} {e}' for eye, e in by_eye.items())}",
         near(ours, PRINTED[quantity], MARGIN),
-        f"rho^2 grows with the length of the record (tables of Fig. 3.2); more packings of {longer.recording():g} "
+        "rho^2 grows with the length of the record, sigma_a little (table of Fig. 3.2); more packings of "
+        f"{longer.recording():g} "
         "s narrow it",
     )
 
@@ -137,9 +138,9 @@ def constant(found: Curves) -> Statement:
         "above the threshold both stay nearly constant",
         f"from Gamma = 1.6-3.0 to 3.0-4.5 {' and '.join(words)}, as measured",
         every(parts, f"changes at most {MARGIN:g}, with the whole interval"),
-        "above Gamma = 3 the camera takes the fastest disks for others (15 RPM), and angles fluctuate more in our "
-        "short "
-        "records",
+        "sigma_a grows steadily from Gamma = 1 on, in truth as well, and faster by camera where disks pass 15 "
+        "RPM: it passes "
+        "0.4 near Gamma = 3, so its mean is P's; P's own simulations have the same rise (Fig. 3.7)",
     )
 
 
@@ -150,7 +151,10 @@ def _break(found: Curves, quantity: str) -> Statement:
         f"{WORDS[quantity]} saturates at the same Gamma = 1.6 at which the exponent changes",
         f"two straight lines against ln Gamma meet at Gamma = {ours}, as measured",
         near(ours, THRESHOLD, 0.2),
-        "in ours both turn where the disks leave the bottom, near Gamma = 1 or below, as in P's simulations (Fig. 3.7)",
+        "the rise ends below Gamma = 1 in ours, with the disks in contact, as in P's simulations (Fig. 3.7); "
+        "pictures of "
+        "coarse marks shift it up, since their noise hides slow rotation: by pictures it is at "
+        f"{found[quantity, 'pictures'].level_break((0.0, HIGH[1]))}",
     )
 
 
@@ -168,7 +172,8 @@ def fluctuations(data: Data) -> Statement:
         "near the threshold both fluctuate more than far from it, perhaps since Gamma is uncertain",
         f"standard deviation over packings at Gamma 1.2-2.1 against 2.6-4.6: {'; '.join(words)}",
         every([above(r, 1.0) for r in ratios], "ratio of the scatter above 1 by two errors, both"),
-        "Gamma is known to half a per cent here, so no regimes are mixed; P suspects that mixture itself, and its own "
+        f"{more_packings(data)}. Gamma is known to half a per cent here, so no regimes are mixed; P suspects that "
+        "mixture itself, and its own "
         "simulations have none of it",
     )
 

@@ -11,6 +11,11 @@ Maker = Callable[[Laboratory, bool, int | None], Product]
 MODULES = {
     "2.2": "methods.parameters",
     "2.3.3": "methods.base_sampling",
+    "camera": "laboratory.figures:sensors",
+    "3.1": "laboratory.figures:paths",
+    "3.2": "laboratory.figures:squares",
+    "3.3": "laboratory.figures:steady",
+    "3.4": "laboratory.figures:distributions",
     "3.5": "packing.paths:molecular_dynamics",
     "3.6": "packing.mean_square",
     "3.7": "packing.steadiness",

@@ -35,6 +35,7 @@ MODULES = {
 }
 """Figure of the thesis and the module of `studies.thesis` that makes it, with its function if that is not `make`."""
 STUDIES = {
+    "F2": "depth:DEPTH",
     "F3": "experiment:EXPERIMENT",
     "F6": "shape:ASYMMETRY",
     "F7": "shape:HEIGHT",
@@ -45,8 +46,9 @@ STUDIES = {
     "F12": "frequency:TRANSITION",
     "F13": "flow:FORWARDS",
     "F14": "flow:BACKWARDS",
+    "FV": "single",
 }
-"""Figure of F and the study in `studies.ratchet` that makes it."""
+"""Figure or section of F and the study in `studies.ratchet` that makes it; a module without one has `make`."""
 PRECISE = frozenset({"4.3", "4.5", "5.1", "5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "closed-form", "engines"})
 """Figures without chance, whose runs are kept in double precision."""
 NUMBERS = (*MODULES, *STUDIES)
@@ -57,8 +59,9 @@ GROUPS = {"all": tuple(MODULES), "F": tuple(STUDIES)}
 def maker(number: str) -> Maker:
     """The function that makes a figure."""
     if number in STUDIES:
-        module, name = STUDIES[number].split(":")
-        made: Maker = getattr(import_module(f"studies.ratchet.{module}"), name).make
+        module, _, name = STUDIES[number].partition(":")
+        loaded = import_module(f"studies.ratchet.{module}")
+        made: Maker = (getattr(loaded, name) if name else loaded).make
         return made
     module, _, function = MODULES[number].partition(":")
     found: Maker = getattr(import_module(f"studies.thesis.{module}"), function or "make")

@@ -49,6 +49,8 @@ STUDIES = {
     "FV": "single",
 }
 """Figure or section of F and the study in `studies.ratchet` that makes it; a module without one has `make`."""
+RECORDS = dict.fromkeys(("3.6", "3.7", "3.8", "3.9", "3.11"), "packing")
+"""Figures that share a record, and its name; others have that of their module."""
 PRECISE = frozenset({"4.3", "4.5", "5.1", "5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "closed-form", "engines"})
 """Figures without chance, whose runs are kept in double precision."""
 NUMBERS = (*MODULES, *STUDIES)

@@ -18,7 +18,7 @@ from jostle_lab.errors import LabError
 from jostle_lab.locate import fingerprint
 from jostle_lab.programs import output_of
 from jostle_lab.runs.dask_backend import dask_backend
-from jostle_lab.runs.records import Records
+from jostle_lab.runs.records import Record, Records
 from jostle_lab.runs.run import Run
 from jostle_lab.tables import Table, parse_csv
 
@@ -59,28 +59,42 @@ class Laboratory:
         tables: dict[Run, Table] = {}
         for run in wanted:
             self.asked[run.key()] = run.seed
-            if self.records is not None and (kept := self.records.find(run.key())) is not None:
-                tables[run], seconds = kept
-                self.spent += seconds
+            if (kept := self._recorded(run)) is not None:
+                tables[run] = kept.table
+                self.spent += kept.seconds
         missing = [run for run in wanted if run not in tables]
         self._refuse_if_frozen(len(missing), title)
         for run, (table, seconds) in zip(missing, self._performed(missing, title), strict=True):
             tables[run] = table
             self.spent += seconds
             if self.records is not None:
-                tables[run] = self.records.add(run.key(), self.version, seconds, table)
+                tables[run] = self.records.add(run.key(), self.version, seconds, table).table
         return {run: tables[run] for run in wanted}
+
+    def _recorded(self, run: Run) -> Record | None:
+        """What is kept of a run; further columns come from the run, done again if it must be."""
+        if self.records is None:
+            return None
+
+        def fetch() -> Table:
+            table: Table = self._kept_run(self.program, self.version, run.arguments())[0]
+            return table
+
+        return self.records.find(run.key(), None if self.frozen else fetch)
 
     def computed(self, key: str, compute: Callable[[], tuple[Table, float]]) -> Table:
         """A table that is not that of a run, with its processor time [s], by the name under which it is kept."""
         self.asked[key] = None
-        kept = self.records.find(key) if self.records is not None else None
-        if kept is None:
-            self._refuse_if_frozen(1, key)
-            table, seconds = compute()
-            kept = (self.records.add(key, self.version, seconds, table) if self.records else table), seconds
-        self.spent += kept[1]
-        return kept[0]
+        kept = None
+        if self.records is not None:
+            kept = self.records.find(key, None if self.frozen else lambda: compute()[0])
+        if kept is not None:
+            self.spent += kept.seconds
+            return kept.table
+        self._refuse_if_frozen(1, key)
+        table, seconds = compute()
+        self.spent += seconds
+        return table if self.records is None else self.records.add(key, self.version, seconds, table).table
 
     def unrecorded(self, runs: Sequence[Run], title: str) -> tuple[list[Table], float]:
         """Tables of runs of which no record is kept, and their processor time [s]: for what is in `computed`."""

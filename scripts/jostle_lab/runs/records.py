@@ -4,7 +4,8 @@ A study that is evaluated from its record needs no run; so its page can be made 
 record says by which build of the program its runs were made and what they cost.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,8 @@ from numpy.typing import NDArray
 from jostle_lab.errors import LabError
 from jostle_lab.tables import Table
 
+Fetch = Callable[[], Table]
+
 
 def schema(single: bool) -> dict[str, pl.DataType]:
     """Columns of the file."""
@@ -23,26 +26,53 @@ def schema(single: bool) -> dict[str, pl.DataType]:
     return {"run": text, "program": text, "seconds": pl.Float32(), "column": text, "values": pl.List(number)}
 
 
-class Watched(dict[str, NDArray[np.float64]]):
-    """A table that remembers which of its columns were read."""
+class Recorded(dict[str, NDArray[np.float64]]):
+    """The table of a run, which remembers the columns that are read; one that is not there is fetched.
 
-    def __init__(self, table: Table) -> None:
-        super().__init__(table)
-        self.read: set[str] = set()
+    Args:
+        kept: columns that are kept already.
+        fetch: makes the whole table; None: what is not kept is an error.
+        name: what the message of that error names.
+
+    """
+
+    def __init__(self, kept: Table, fetch: Fetch | None, name: str) -> None:
+        super().__init__(kept)
+        self.read = set(kept)
+        self._fetch, self._name = fetch, name
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """A column."""
+        column = super().__getitem__(name)
         self.read.add(name)
-        return super().__getitem__(name)
+        return column
 
-    def items(self) -> Any:
-        """All columns, all of which count as read."""
-        self.read.update(self)
-        return super().items()
+    def __missing__(self, name: str) -> NDArray[np.float64]:
+        """Fetch the table and take what is not there yet."""
+        if self._fetch is None:
+            raise LabError(f"{name} is not kept of the run `{self._name}`. Compute its figure anew.")
+        whole = self._fetch()
+        if name not in whole:
+            raise LabError(f"The run `{self._name}` has no column {name}. Is the program up to date?")
+        self._fetch = None
+        for other, column in whole.items():
+            self.setdefault(other, column)
+        return dict.__getitem__(self, name)
+
+
+@dataclass
+class Record:
+    """A run as it is kept."""
+
+    program: str
+    """Fingerprint of the program that did it."""
+    seconds: float
+    """Processor time."""
+    table: Recorded
 
 
 class Records:
-    """The record of one study.
+    """The record of one or more studies.
 
     Args:
         file: Parquet; need not exist.
@@ -53,38 +83,34 @@ class Records:
     def __init__(self, file: Path, single: bool = True) -> None:
         self.file, self.single = file, single
         self._kept: dict[str, tuple[str, float, Table]] = {}
-        self._new: dict[str, tuple[str, float, Watched]] = {}
+        self._asked: dict[str, Record] = {}
         if file.exists():
             self._read()
 
     def _read(self) -> None:
         try:
-            frame = pl.read_parquet(self.file)
-            for run, program, seconds, column, values in frame.iter_rows():
+            for run, program, seconds, column, values in pl.read_parquet(self.file).iter_rows():
                 table = self._kept.setdefault(run, (program, seconds, {}))[2]
                 table[column] = np.array(values, dtype=np.float64)
         except (pl.exceptions.PolarsError, ValueError) as error:
             raise LabError(f"{self.file} is no record of runs: {error}. Compute it anew.") from None
 
-    def find(self, run: str) -> tuple[Table, float] | None:
-        """Table of a run, of the columns that are kept, and its processor time [s]; None if it is not kept."""
-        if run in self._new:
-            _, seconds, watched = self._new[run]
-            return watched, seconds
-        if run not in self._kept:
-            return None
-        _, seconds, table = self._kept[run]
-        return table, seconds
+    def find(self, run: str, fetch: Fetch | None) -> Record | None:
+        """A run that is kept, whose further columns `fetch` makes; None if it is not kept."""
+        if run not in self._asked and run in self._kept:
+            program, seconds, table = self._kept[run]
+            self._asked[run] = Record(program, seconds, Recorded(table, fetch, run))
+        return self._asked.get(run)
 
-    def add(self, run: str, program: str, seconds: float, table: Table) -> Table:
-        """Take a run in; return its table, whose columns are kept if they are read before `write`."""
-        watched = Watched(table)
-        self._new[run] = (program, seconds, watched)
-        return watched
+    def add(self, run: str, program: str, seconds: float, table: Table) -> Record:
+        """Take a run in; the columns of its table are kept that are read before `write`."""
+        self._asked[run] = Record(program, seconds, Recorded({}, lambda: table, run))
+        return self._asked[run]
 
-    def write(self, runs: Sequence[str] | None = None) -> None:
-        """Write the file: what was kept and what is new, of `runs` if given, in the order of the runs."""
-        chosen = sorted(set(self._kept) | set(self._new)) if runs is None else sorted(set(runs))
+    def write(self, only: Iterable[str] | None = None) -> None:
+        """Write what was kept and what is new; `only` these runs, if given."""
+        names = set(self._kept) | set(self._asked)
+        chosen = sorted(names if only is None else names & set(only))
         rows = [row for run in chosen for row in self._rows(run)]
         self.file.parent.mkdir(parents=True, exist_ok=True)
         draft = self.file.with_name(f"_{self.file.name}.draft")
@@ -92,14 +118,11 @@ class Records:
         frame.write_parquet(draft, compression="zstd", compression_level=19, statistics=False)
         draft.replace(self.file)
 
-    def _rows(self, run: str) -> Iterator[tuple[str, str, float, str, list[float]]]:
-        if run in self._new:
-            program, seconds, watched = self._new[run]
-            columns = {name: dict.__getitem__(watched, name) for name in sorted(watched.read)}
-        elif run in self._kept:
-            program, seconds, table = self._kept[run]
-            columns = dict(sorted(table.items()))
+    def _rows(self, run: str) -> list[tuple[Any, ...]]:
+        if run in self._asked:
+            record = self._asked[run]
+            program, seconds = record.program, record.seconds
+            columns = {name: dict.__getitem__(record.table, name) for name in record.table.read}
         else:
-            return
-        for name, values in columns.items():
-            yield run, program, seconds, name, values.tolist()
+            program, seconds, columns = self._kept[run]
+        return [(run, program, seconds, name, columns[name].tolist()) for name in sorted(columns)]

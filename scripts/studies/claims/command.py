@@ -31,7 +31,7 @@ def claims(
     Safe to interrupt and to repeat: finished runs are kept in results/runs.
     """
     from studies.claims.page import page
-    from studies.claims.sections import record_file, section
+    from studies.claims.sections import forget_others, record_file, section
     from studies.registry import MODULES, STUDIES
 
     figures = [*STUDIES, *MODULES]
@@ -43,6 +43,8 @@ def claims(
             sections.append(section(figure, laboratory, docs, figure in wanted)[0])
         else:
             typer.echo(f"{figure} has no record and is left out: --compute {figure} makes one", err=True)
+    if wanted:
+        forget_others(sections, docs)
     replace_text(docs / PAGE, page(sections))
     typer.echo(docs / PAGE)
 

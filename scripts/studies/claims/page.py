@@ -63,7 +63,9 @@ def _differences(title: str, sections: Sequence[Section], verdicts: Sequence[Ver
 
 def _section(section: Section) -> list[str]:
     kind = f" Seeds: {section.seeds}."
-    effort = f"`claims --compute {section.figure}`: {section.runs} runs, {_time(section.seconds)} of one processor."
+    effort = (
+        f"`claims --compute {section.figure}`: {len(section.runs)} runs, {_time(section.seconds)} of one processor."
+    )
     rows = [_row(name, s) for name, s in zip(section.row_names(), section.statements, strict=True)]
     return [
         f"### {section.title}",

@@ -8,7 +8,7 @@ from jostle_lab.plots.style import house_style
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.runs.records import Records
 from jostle_lab.statements import Product, Statement
-from studies.registry import MODULES, PRECISE, STUDIES, maker
+from studies.registry import MODULES, NUMBERS, PRECISE, RECORDS, STUDIES, maker
 
 FOLDER = "claims"
 """Folder of the records, beside the page."""
@@ -22,7 +22,8 @@ class Section:
     title: str
     statements: Sequence[Statement]
     notes: Sequence[str]
-    runs: int
+    runs: Sequence[str]
+    """What they are found by."""
     seeds: str
     """Such as `1 to 25`."""
     seconds: float
@@ -38,7 +39,8 @@ class Section:
 def record_file(docs: Path, figure: str) -> Path:
     """Where the record of a figure is kept; figures of one module share it."""
     module = f"ratchet.{STUDIES[figure]}" if figure in STUDIES else MODULES[figure]
-    return docs / FOLDER / f"{module.partition(':')[0]}.parquet"
+    name = RECORDS.get(figure, module.partition(":")[0])
+    return docs / FOLDER / f"{name}.parquet"
 
 
 def section(figure: str, laboratory: Laboratory, docs: Path, compute: bool) -> tuple[Section, Product]:
@@ -57,12 +59,24 @@ def section(figure: str, laboratory: Laboratory, docs: Path, compute: bool) -> t
         product.title,
         product.statements,
         product.notes,
-        len(laboratory.asked),
+        tuple(laboratory.asked),
         _range(seeds),
         laboratory.spent,
         product.tables,
     )
     return found, product
+
+
+def forget_others(sections: Sequence[Section], docs: Path) -> None:
+    """Take out of the records what no figure asks for."""
+    asked: dict[Path, set[str]] = {}
+    for found in sections:
+        asked.setdefault(record_file(docs, found.figure), set()).update(found.runs)
+    figures = {found.figure for found in sections}
+    for file, runs in asked.items():
+        of_file = {figure for figure in NUMBERS if record_file(docs, figure) == file}
+        if of_file <= figures:
+            Records(file, single=not of_file & PRECISE).write(runs)
 
 
 def _range(seeds: Sequence[int]) -> str:

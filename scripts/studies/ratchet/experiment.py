@@ -93,9 +93,14 @@ def windows(curve: Curve) -> dict[float, Onset]:
     return {w: fit(curve, w) for w in WINDOWS if len(curve.between(0.0, w).x) >= 6}
 
 
-def slope(curve: Curve, low: float, high: float) -> Fitted:
-    """Slope of log v against log (Gamma - 1.7), as F's inset, from one Gamma to another; 68 % by bootstrap."""
-    part = curve.between(low, high)
+def slope(curve: Curve, low: float, high: float) -> Fitted | None:
+    """Slope of log v against log (Gamma - 1.7), as F's inset, from one Gamma to another; 68 % by bootstrap.
+
+    None if fewer than three points in between move.
+    """
+    part = curve.between(low, high).moving()
+    if len(part.x) < 3:
+        return None
     distance = np.log(np.array(part.x) / THRESHOLD - 1.0)
 
     def line(*runs: Numbers, axis: int) -> Numbers:
@@ -170,11 +175,7 @@ def tables(points: Points) -> list[Table]:
     interval = f"{100 * CONFIDENCE:.0f} % intervals by bootstrap over the runs"
     fits = [_row(f"up to {largest:g}", onset) for largest, onset in windows(curve).items()]
     found = [Table(f"Onset against the window of the fit, {interval}", HEADER, fits)]
-    slopes = [
-        [f"{low:g} to {high:g}", str(slope(curve, low, high))]
-        for low, high in SLOPES
-        if len(curve.between(low, high).x) >= 3
-    ]
+    slopes = [[f"{low:g} to {high:g}", str(slope(curve, low, high))] for low, high in SLOPES]
     title = f"Slope of a straight line, log v against log (Gamma - {THRESHOLD:g}), as in F's inset, by Gamma"
     found.append(Table(title, ["Gamma", "slope"], slopes))
     changed = []

@@ -63,15 +63,13 @@ class Law:
         tangent = np.stack([normal[:, 1], -normal[:, 0]], axis=1)
         along_normal = np.sum(velocity * normal, axis=1)
         along_tangent = np.sum(velocity * tangent, axis=1)
-        # With the tangent to the right of the outward normal the lowest point moves at v_t - R omega (omega counter-
-        # clockwise), so F's v_r = v_t + v_c has v_c = -R omega.
-        circumferential = -rim
-        slip = along_tangent + circumferential
+        # Tangent to the right of the outward normal: there the rim moves at R omega along it.
+        slip = along_tangent + rim
         push = (1.0 + self.restitution) * np.abs(along_normal)
         compliance = 1.0 + (0.0 if math.isinf(self.inertia) else 1.0 / self.inertia)
         limit = np.minimum(self.friction * push, np.abs(slip) / compliance)
         change = -np.sign(slip) * limit
-        after_rim = rim if math.isinf(self.inertia) else -(circumferential + change / self.inertia)
+        after_rim = rim if math.isinf(self.inertia) else rim + change / self.inertia
         tangential = (along_tangent + change)[:, None] * tangent
         return tangential - self.restitution * along_normal[:, None] * normal, after_rim
 

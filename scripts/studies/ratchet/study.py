@@ -101,6 +101,11 @@ class Curve:
         kept = [(x, p) for x, p in zip(self.x, self.points, strict=True) if low <= x <= high]
         return Curve(tuple(x for x, _ in kept), tuple(p for _, p in kept))
 
+    def moving(self) -> "Curve":
+        """The part whose points are not at rest."""
+        kept = [(x, p) for x, p in zip(self.x, self.points, strict=True) if not p.at_rest]
+        return Curve(tuple(x for x, _ in kept), tuple(p for _, p in kept))
+
     def crossings(self) -> list[Estimate]:
         """Sign changes for certain, points at rest left out."""
         moving = [(x, p.estimate) for x, p in zip(self.x, self.points, strict=True) if not p.at_rest]

@@ -19,7 +19,7 @@ ARROW = 0.25
 """Length of an arrow [mm] for each disk that moves at 1 cm/s: the same in both figures, as in F."""
 SCALE = 10.0
 """Of the arrow in the corner: disks times cm/s."""
-MASSES = (0.01, 0.03)
+MASSES = (0.01, 0.02)
 """Shares of the mass of the disks in the corner."""
 SHOWN_TEETH = 3
 SHOWN_HEIGHT = 16.0
@@ -52,9 +52,9 @@ def draw(case: Case, fields: MeanFields, windows: Sequence[int]) -> Figure:
     return figure
 
 
-def _arrows(panel: Axes, x: Numbers, y: Numbers, across: Numbers, up: Numbers) -> None:
+def _arrows(panel: Axes, x: Numbers, y: Numbers, across: Numbers, up: Numbers, zorder: float = 2.0) -> None:
     style: dict[str, Any] = {"scale_units": "xy", "scale": 1.0, "width": 0.004, "headwidth": 3.5, "color": INK}
-    panel.quiver(x, y, ARROW * across, ARROW * up, angles="xy", **style)
+    panel.quiver(x, y, ARROW * across, ARROW * up, angles="xy", zorder=zorder, **style)
 
 
 def _radii(mass: Numbers, heaviest: float) -> Numbers:
@@ -70,21 +70,21 @@ def _circles(x: Numbers, y: Numbers, radii: Numbers) -> PatchCollection:
 
 def _arrow_scale(panel: Axes) -> None:
     """An arrow of known length in the corner."""
-    x, y = np.array([10.3]), np.array([SHOWN_HEIGHT - 1.2])
-    _box(panel, 9.8, y[0] - 0.9, 8.1, 1.8)
-    _arrows(panel, x, y, np.array([SCALE]), np.array([0.0]))
+    x, y = np.array([7.2]), np.array([SHOWN_HEIGHT - 1.2])
+    _box(panel, 6.7, y[0] - 0.9, 11.2, 1.8)
+    _arrows(panel, x, y, np.array([SCALE]), np.array([0.0]), zorder=5.0)
     panel.text(x[0] + ARROW * SCALE + 0.4, y[0], f"{SCALE:g} disks × cm/s", va="center", fontsize=6.5, zorder=5)
 
 
 def _mass_scale(panel: Axes, heaviest: float) -> None:
     """Disks of known mass in the corner."""
     y = SHOWN_HEIGHT - 1.2
-    _box(panel, 6.5, y - 0.9, 11.4, 1.8)
-    for place, mass in zip((7.3, 11.2), MASSES, strict=True):
+    _box(panel, 4.2, y - 0.9, 13.7, 1.8)
+    for place, mass in zip((5.0, 8.7), MASSES, strict=True):
         radius = float(_radii(np.array([mass]), heaviest)[0])
         panel.add_patch(Circle((place, y), radius, facecolor=INK, lw=0, zorder=5))
         panel.text(place + 0.8, y, f"{100 * mass:g} %", va="center", fontsize=6.5, zorder=5)
-    panel.text(14.4, y, "of all mass", va="center", fontsize=6.5, zorder=5)
+    panel.text(11.9, y, "of all mass", va="center", fontsize=6.5, zorder=5)
 
 
 def _box(panel: Axes, x: float, y: float, width: float, height: float) -> None:

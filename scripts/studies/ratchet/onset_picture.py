@@ -1,5 +1,7 @@
 """Picture of an onset: velocity against Gamma with the fit and the printed law, and the same log-log."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -37,11 +39,13 @@ def draw_onset(
     log.set(
         xscale="log", yscale="log", xlabel=r"$(\Gamma - \Gamma_c)/\Gamma_c$", ylabel=r"$\langle v_x \rangle$ [cm/s]"
     )
-    _plain_ticks(log, max(e.mean for _, e in above))
+    _plain_ticks(log, [e.mean for _, e in above])
 
 
-def _plain_ticks(log: Axes, largest: float) -> None:
+def _plain_ticks(log: Axes, velocities: Sequence[float]) -> None:
     """Velocities as numbers, not as powers."""
-    ticks = [t for t in (0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0) if t < 1.1 * largest]
+    low, high = 0.6 * min(velocities), 1.3 * max(velocities)
+    ticks = [t for t in (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0) if low < t < high]
+    log.set_ylim(low, high)
     log.set_yticks(ticks, [f"{t:g}" for t in ticks])
     log.minorticks_off()

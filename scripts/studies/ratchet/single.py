@@ -24,16 +24,17 @@ from studies.ratchet.study import Table, listed, stated
 RADIUS = 1.1
 """Of the ball [mm]: the middle of those of F IV."""
 TOOTH_WIDTH = 6.0
-BALLS = 20_000
+BALLS = 10_000
 STEEPEST = 15.0
 """Angles are drawn evenly from this to both sides of the vertical [degrees]."""
-OTHER_ANGLES = (5.0, 30.0)
+OTHER_ANGLES = (5.0, 45.0, 70.0)
+RESTITUTIONS = (0.5, 0.7, 0.8, 0.9)
 SHAPE = (6.0, 0.25)
 """h [mm] and a of F's Figs 8, 10, 12 and 14: teeth of intermediate size and asymmetry."""
 FORWARD_SHAPE = (3.0, 0.1)
 """h and a of F's Figs 9, 11 and 13: a dense layer or a thin one, the flow is positive."""
-HEIGHTS = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 16.0, 20.0)
-ASYMMETRIES = (0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5)
+HEIGHTS = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 14.0, 20.0)
+ASYMMETRIES = (0.0, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5)
 ROTATING, FROZEN, SMOOTH = Law(), Law(inertia=math.inf), Law(friction=0.0)
 ROUGH, ROUGH_FROZEN = Law(friction=0.5), Law(friction=0.5, inertia=math.inf)
 LAWS = {
@@ -61,7 +62,8 @@ class Drops:
 
     def left(self, shape: tuple[float, float], law: Law, angle: float = STEEPEST) -> NDArray[np.float64]:
         """Shares of ten groups of the balls that leave to the left."""
-        key = f"falling balls {self.balls} {shape[0]:g} {shape[1]:g} {law.friction:g} {law.inertia:g} {angle:g}"
+        key = f"falling balls {self.balls} {shape[0]:g} {shape[1]:g} {law.restitution:g} {law.friction:g} "
+        key += f"{law.inertia:g} {angle:g}"
 
         def compute() -> tuple[Columns, float]:
             begun = time.process_time()
@@ -109,7 +111,9 @@ def make(laboratory: Laboratory, quick: bool, seeds: int | None = None) -> Produ
     )
     statements = [*_dropped(drops), *_shaken(by_friction, points[SHAKEN_FORWARD].estimate)]
     picture = _draw(drops, heights, asymmetries)
-    return Product("F V: a single ball", rows, picture, statements, notes, [_table(drops).markdown()])
+    return Product(
+        "F V: a single ball", rows, picture, statements, notes, [_table(drops).markdown(), _elastic(drops).markdown()]
+    )
 
 
 def _dropped(drops: Drops) -> list[Statement]:
@@ -167,6 +171,17 @@ def _table(drops: Drops) -> Table:
         for angle in OTHER_ANGLES
     ]
     return Table("Share of dropped balls that leave to the left", ["teeth", *LAWS], rows)
+
+
+def _elastic(drops: Drops) -> Table:
+    """Shares by restitution, friction 0.1, for balls that come near the vertical or obliquely."""
+    rows = [
+        [f"{e:g}", *(str(drops.share(SHAPE, Law(restitution=e), angle)) for angle in (STEEPEST, *OTHER_ANGLES[1:]))]
+        for e in RESTITUTIONS
+    ]
+    title = "Share of dropped balls that leave to the left, h = 6 mm, a = 0.25, by restitution and range of angles"
+    header = ["restitution", *(f"within {angle:g} degrees" for angle in (STEEPEST, *OTHER_ANGLES[1:]))]
+    return Table(title, header, rows)
 
 
 def _draw(drops: Drops, heights: Sequence[float], asymmetries: Sequence[float]) -> Figure:

@@ -64,11 +64,7 @@ def plan(quick: bool) -> Plan:
     """Runs of 30 s, more where few disks scatter."""
     if quick:
         return {shape.case(n): 2 for shape in SHAPES for n in (0.5, 2.0, 4.0)}
-    return {
-        shape.case(n): 10 if n < 1.0 else 5 if n < 3.0 else 3 if n < 5.0 else 2
-        for shape in (*SHAPES, SOFTER, HARDER)
-        for n in LAYERS
-    }
+    return {shape.case(n): 8 if n < 1.0 else 4 if n < 3.0 else 2 for shape in (*SHAPES, SOFTER, HARDER) for n in LAYERS}
 
 
 def found_curves(points: Points) -> dict[Shape, Curve]:

@@ -45,20 +45,14 @@ def case(gamma: float) -> Case:
     return Case(7.0, 0.0, frequency_of(gamma), DISKS, TEETH, changes=tuple(sorted(CHANGES.items())))
 
 
-def _other_balls(case: Case, disks: int, teeth: int = TEETH) -> Case:
-    return replace(case, disks=disks, teeth=teeth)
-
-
 VARIANTS: dict[str, Callable[[Case], Case]] = {
-    "65 disks, as long a row as 76 balls in zigzag in the gap": lambda c: _other_balls(c, ZIGZAG),
-    "148 disks, four layers side by side": lambda c: _other_balls(c, 148),
-    "199 disks, 26 teeth: the whole ring": lambda c: _other_balls(c, 199, 26),
+    "65 disks, as long a row as 76 balls in zigzag in the gap": lambda c: replace(c, disks=ZIGZAG),
+    "148 disks, four layers side by side": lambda c: replace(c, disks=148),
     "inertia of disks, 1/2": lambda c: c.with_changes(disk__inertia_factor=0.5),
     "restitution 0.6": lambda c: c.with_changes(collision__restitution=0.6),
     "restitution 0.9": lambda c: c.with_changes(collision__restitution=0.9),
     "no friction": lambda c: c.with_changes(collision__friction=0.0),
     "friction 0.3": lambda c: c.with_changes(collision__friction=0.3),
-    "tip of 0.1 mm": lambda c: c.with_changes(tooth__tip_radius=1e-4),
 }
 """What F leaves open or what differs from it, and how a case changes."""
 

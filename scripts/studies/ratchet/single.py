@@ -134,7 +134,8 @@ def _dropped(drops: Drops) -> list[Statement]:
             "V",
             "this effect is enhanced by rotation, due to friction between ball and tooth",
             f"h = 6 mm, a = 0.25, shares: {shares}; more with rotation than with frozen rotation by {gains[0]}, than "
-            f"without friction by {gains[1]}; at friction 0.5 more with rotation by {gains[2]}",
+            f"without friction by {gains[1]}; at friction 0.5 more with rotation by {gains[2]}; "
+            "not on every tooth (table)",
             every((above(gain, 0.0) for gain in gains), "each gain above 0 by two errors"),
             "more balls decide",
         ),

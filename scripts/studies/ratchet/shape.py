@@ -5,9 +5,9 @@ from dataclasses import replace
 from matplotlib.figure import Figure
 
 from jostle_lab.statements import Statement
-from jostle_lab.statistics.estimates import sign_changes
+from jostle_lab.statistics.estimates import Estimate, sign_changes
 from jostle_lab.verdicts import Judgement, above, below, every, falls, near, rises, true, vanish
-from studies.ratchet.cases import Case, Plan, Points
+from studies.ratchet.cases import SMALLEST_DIAMETER, TOOTH_WIDTH, Case, Plan, Points
 from studies.ratchet.study import Curve, Study, Table, curves, listed, panel_of_curves, signed, stated
 
 HEIGHTS = (3.0, 5.0, 7.0, 9.0)
@@ -49,8 +49,11 @@ def _by_height(points: Points) -> dict[float, Curve]:
 
 def asymmetry_draw(points: Points) -> Figure:
     """One curve for each height."""
-    found = _by_height(points)
-    return panel_of_curves(found, lambda h: f"h = {h:g} mm", "asymmetry a")
+    figure = panel_of_curves(_by_height(points), lambda h: f"h = {h:g} mm", "asymmetry a")
+    panel = figure.axes[0]
+    panel.axvline(0.25, color="0.4", lw=0.8, ls=":", label="F: minimum of h = 5 mm", zorder=0)
+    panel.legend()
+    return figure
 
 
 def asymmetry_statements(points: Points) -> list[Statement]:
@@ -74,10 +77,9 @@ def asymmetry_statements(points: Points) -> list[Statement]:
             "h = 5 mm: negative",
             _by(middle),
             signed(middle.between(0.0, 0.45).estimates, -1),
-            "the steepest teeth, a = 0 and perhaps 0.05, still carry forwards at 5 mm: their negative flow begins at "
-            "5.4 mm (Fig. 7). The table shows that neither the tip, which F does not give, nor restitution, friction "
-            "or the number of disks makes a = 0 negative. F does not say where its curve begins; it says itself that "
-            "the velocity is positive for small h and a = 0.05 (Fig. 7)",
+            "the steepest teeth, a = 0 and perhaps 0.05, still carry forwards at 5 mm: at a = 0.05 the negative flow "
+            "begins at 5.4 mm (Fig. 7), as F says itself of small h. Of all that the table changes only friction turns "
+            "them: without it a = 0 flows backwards. F does not say where its curve begins",
         ),
         stated(
             "IV A, Fig. 6",
@@ -87,6 +89,45 @@ def asymmetry_statements(points: Points) -> list[Statement]:
             "more runs decide: an error of half a step of a",
         ),
         *_trend("h = 9 mm", high, -1, rises(high.estimates), "increases"),
+        *_by_friction(points),
+        layer_of_the_cell(),
+    ]
+
+
+def layer_of_the_cell() -> Statement:
+    """F IV A on its cell, which follows from F's radii."""
+    disks = 24 * TOOTH_WIDTH / SMALLEST_DIAMETER
+    return stated(
+        "IV A",
+        "a cell of 24 w = 144 mm, one layer of about 70 particles",
+        f"{24e3 * TOOTH_WIDTH:g} mm; {disks:.1f} disks of 2.1 mm side by side",
+        near(Estimate(disks, 0.0), 70.0, 5.0),
+    )
+
+
+def _by_friction(points: Points) -> list[Statement]:
+    """F IV on friction, where the sign is about to turn."""
+    frictions: tuple[tuple[str, float], ...] = (("collision.friction", 0.0), ("", 0.1), ("collision.friction", 0.3))
+    cases = {a: [_changed(a, change) for change in frictions] for a in STEEP}
+    if not all(case in points for found in cases.values() for case in found):
+        return []
+    velocities = {a: [points[case].estimate for case in found] for a, found in cases.items()}
+    text = "; ".join(
+        f"a = {a:g}: {listed(zip((v for _, v in frictions), found, strict=True))}" for a, found in velocities.items()
+    )
+    first = {a: -1 if found[0].mean < 0.0 else 1 for a, found in velocities.items()}
+    return [
+        stated(
+            "IV, at Fig. 6",
+            "the direction hardly depends on friction (h = 5 mm)",
+            f"by friction: {text}",
+            every(
+                (signed(found, first[a]) for a, found in velocities.items()),
+                "at each a the same sign at every friction, by two errors",
+            ),
+            "near the border between both directions, as on the steepest teeth of 5 mm, friction decides; away from "
+            "it (a = 0.25, and Figs 13 and 14) it does not",
+        )
     ]
 
 

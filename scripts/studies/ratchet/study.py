@@ -149,7 +149,7 @@ def plain(case: Case) -> bool:
 
 
 def panel_of_curves(
-    found: Mapping[float, Curve], label: Callable[[float], str], x_label: str, width: float = 0.72 * WIDTH
+    found: Mapping[float, Curve], label: Callable[[float], str], x_label: str, width: float = 0.86 * WIDTH
 ) -> Figure:
     """All curves in one panel, dark to light."""
     figure = Figure(figsize=(width, 3.7), layout="constrained")

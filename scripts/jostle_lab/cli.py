@@ -31,6 +31,8 @@ def application(help_text: str, *commands: Callable[..., None]) -> typer.Typer:
         rich_markup_mode=None,
         help=help_text,
     )
+    # With a callback a single command, too, is called by its name.
+    app.callback()(lambda: None)
     for command in commands:
         app.command()(command)
     return app

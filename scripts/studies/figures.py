@@ -54,7 +54,7 @@ def figure(
 ) -> None:
     """Compute figures of the papers anew: data.csv, figure.png and statements.md, in results/figure-N.
 
-    Safe to interrupt and to repeat: finished runs are kept in results/runs and results/ratchet-sweep.
+    Safe to interrupt and to repeat: finished runs are kept in results/runs.
     """
     chosen = [number for name in numbers for number in GROUPS.get(name, (name,))]
     unknown = [number for number in chosen if number not in NUMBERS]

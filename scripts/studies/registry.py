@@ -51,6 +51,7 @@ MODULES = {
 }
 """Figure of the thesis and the module of `studies.thesis` that makes it, with its function if that is not `make`."""
 STUDIES = {
+    "F2": "depth:DEPTH",
     "F3": "experiment:EXPERIMENT",
     "F6": "shape:ASYMMETRY",
     "F7": "shape:HEIGHT",
@@ -61,8 +62,9 @@ STUDIES = {
     "F12": "frequency:TRANSITION",
     "F13": "flow:FORWARDS",
     "F14": "flow:BACKWARDS",
+    "FV": "single",
 }
-"""Figure of F and the study in `studies.ratchet` that makes it."""
+"""Figure or section of F and the study in `studies.ratchet` that makes it; a module without one has `make`."""
 RECORDS = dict.fromkeys(("3.6", "3.7", "3.8", "3.9", "3.11"), "packing")
 """Figures that share a record, and its name; others have that of their module."""
 PRECISE = frozenset({"4.4", "5.1", "5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "closed-form", "engines"})
@@ -75,8 +77,9 @@ GROUPS = {"all": tuple(MODULES), "F": tuple(STUDIES)}
 def maker(number: str) -> Maker:
     """The function that makes a figure."""
     if number in STUDIES:
-        module, name = STUDIES[number].split(":")
-        made: Maker = getattr(import_module(f"studies.ratchet.{module}"), name).make
+        module, _, name = STUDIES[number].partition(":")
+        loaded = import_module(f"studies.ratchet.{module}")
+        made: Maker = (getattr(loaded, name) if name else loaded).make
         return made
     module, _, function = MODULES[number].partition(":")
     found: Maker = getattr(import_module(f"studies.thesis.{module}"), function or "make")

@@ -96,6 +96,11 @@ class Laboratory:
         self.spent += seconds
         return table if self.records is None else self.records.add(key, self.version, seconds, table).table
 
+    def unrecorded(self, runs: Sequence[Run], title: str) -> tuple[list[Table], float]:
+        """Tables of runs of which no record is kept, and their processor time [s]: for what is in `computed`."""
+        done = list(self._performed(runs, title))
+        return [table for table, _ in done], sum(seconds for _, seconds in done)
+
     def _refuse_if_frozen(self, missing: int, title: str) -> None:
         if self.frozen and missing:
             raise LabError(f"{missing} runs of {title} are not kept in {self.records and self.records.file}.")

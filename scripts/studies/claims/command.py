@@ -28,26 +28,19 @@ def claims(
 ) -> None:
     """Write docs/generated/claims.md: every claim of both papers beside what was found, from the records of the runs.
 
-    Safe to interrupt and to repeat: finished runs are kept in results/runs and results/ratchet-sweep.
+    Safe to interrupt and to repeat: finished runs are kept in results/runs.
     """
     from studies.claims.page import page
-    from studies.claims.sections import (
-        compute_ratchet_data,
-        forget_others,
-        ratchet_sections,
-        record_file,
-        thesis_section,
-    )
+    from studies.claims.sections import forget_others, record_file, section
     from studies.registry import MODULES, STUDIES
 
-    wanted = _figures(compute or [], [*MODULES, *STUDIES])
+    figures = [*STUDIES, *MODULES]
+    wanted = _figures(compute or [], figures)
     laboratory = Laboratory(locate.program(program), results / "runs", processes, progress, scheduler)
-    if any(figure in STUDIES for figure in wanted):
-        compute_ratchet_data(laboratory, docs)
-    sections = list(ratchet_sections(docs))
-    for figure in MODULES:
+    sections = []
+    for figure in figures:
         if figure in wanted or record_file(docs, figure).exists():
-            sections.append(thesis_section(figure, laboratory, docs, figure in wanted)[0])
+            sections.append(section(figure, laboratory, docs, figure in wanted)[0])
         else:
             typer.echo(f"{figure} has no record and is left out: --compute {figure} makes one", err=True)
     if wanted:

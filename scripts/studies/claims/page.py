@@ -62,7 +62,7 @@ def _differences(title: str, sections: Sequence[Section], verdicts: Sequence[Ver
 
 
 def _section(section: Section) -> list[str]:
-    kind = "" if section.figure.startswith("F") else f" Seeds: {section.seeds}."
+    kind = f" Seeds: {section.seeds}."
     effort = (
         f"`claims --compute {section.figure}`: {len(section.runs)} runs, {_time(section.seconds)} of one processor."
     )
@@ -76,7 +76,16 @@ def _section(section: Section) -> list[str]:
         "| row | where | printed | ours | verdict | rule |",
         "|:--|:--|:--|:--|:--|:--|",
         *rows,
+        *_folded(section.tables),
     ]
+
+
+def _folded(tables: Sequence[str]) -> list[str]:
+    """Tables of what the answers depend on, folded away: a reader of the claims opens those that matter."""
+    if not tables:
+        return []
+    lines = ["", "<details><summary>What the answers depend on</summary>", ""]
+    return [*lines, *(line for table in tables for line in (*table.splitlines(), "")), "</details>"]
 
 
 def _row(name: str, s: Statement) -> str:

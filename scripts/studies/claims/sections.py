@@ -1,6 +1,6 @@
 """The claims of one figure: what its study says, from the record of its runs."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -8,9 +8,7 @@ from jostle_lab.plots.style import house_style
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.runs.records import Records
 from jostle_lab.statements import Product, Statement
-from studies.ratchet.page import compute as compute_ratchet
-from studies.ratchet.page import kept_sections
-from studies.registry import MODULES, PRECISE, RECORDS, maker
+from studies.registry import MODULES, NUMBERS, PRECISE, RECORDS, STUDIES, maker
 
 FOLDER = "claims"
 """Folder of the records, beside the page."""
@@ -30,6 +28,8 @@ class Section:
     """Such as `1 to 25`."""
     seconds: float
     """Processor time of the runs."""
+    tables: Sequence[str] = ()
+    """In Markdown: what the answers depend on."""
 
     def row_names(self) -> list[str]:
         """Names of the rows, such as 3.6-1."""
@@ -37,13 +37,14 @@ class Section:
 
 
 def record_file(docs: Path, figure: str) -> Path:
-    """Where the record of a figure of the thesis is kept; figures of one module share it."""
-    name = RECORDS.get(figure, MODULES[figure].partition(":")[0])
+    """Where the record of a figure is kept; figures of one module share it."""
+    module = f"ratchet.{STUDIES[figure]}" if figure in STUDIES else MODULES[figure]
+    name = RECORDS.get(figure, module.partition(":")[0])
     return docs / FOLDER / f"{name}.parquet"
 
 
-def thesis_section(figure: str, laboratory: Laboratory, docs: Path, compute: bool) -> tuple[Section, Product]:
-    """Claims of a figure of the thesis; with `compute` the runs that its record lacks are done and kept."""
+def section(figure: str, laboratory: Laboratory, docs: Path, compute: bool) -> tuple[Section, Product]:
+    """Claims of a figure; with `compute` the runs that its record lacks are done and kept."""
     records = Records(record_file(docs, figure), single=figure not in PRECISE)
     laboratory.records, laboratory.frozen = records, not compute
     laboratory.spent, laboratory.asked = 0.0, {}
@@ -53,7 +54,7 @@ def thesis_section(figure: str, laboratory: Laboratory, docs: Path, compute: boo
         records.write()
     laboratory.records, laboratory.frozen = None, False
     seeds = [seed for seed in laboratory.asked.values() if seed is not None]
-    section = Section(
+    found = Section(
         figure,
         product.title,
         product.statements,
@@ -61,33 +62,21 @@ def thesis_section(figure: str, laboratory: Laboratory, docs: Path, compute: boo
         tuple(laboratory.asked),
         _range(seeds),
         laboratory.spent,
+        product.tables,
     )
-    return section, product
-
-
-def ratchet_sections(docs: Path) -> Iterator[Section]:
-    """Claims of the figures of F, from the velocities that are kept."""
-    for found in kept_sections(docs):
-        runs = [str(number) for number in range(found.count)]
-        yield Section(found.number, found.title, found.statements, found.notes, runs, found.seeds, found.seconds)
+    return found, product
 
 
 def forget_others(sections: Sequence[Section], docs: Path) -> None:
     """Take out of the records what no figure asks for."""
     asked: dict[Path, set[str]] = {}
-    for section in sections:
-        if section.figure in MODULES:
-            asked.setdefault(record_file(docs, section.figure), set()).update(section.runs)
-    figures = {section.figure for section in sections}
+    for found in sections:
+        asked.setdefault(record_file(docs, found.figure), set()).update(found.runs)
+    figures = {found.figure for found in sections}
     for file, runs in asked.items():
-        of_file = {figure for figure in MODULES if record_file(docs, figure) == file}
+        of_file = {figure for figure in NUMBERS if record_file(docs, figure) == file}
         if of_file <= figures:
             Records(file, single=not of_file & PRECISE).write(runs)
-
-
-def compute_ratchet_data(laboratory: Laboratory, docs: Path) -> None:
-    """Do the runs of F that are missing and replace what is kept of them."""
-    compute_ratchet(laboratory, docs)
 
 
 def _range(seeds: Sequence[int]) -> str:

@@ -49,13 +49,15 @@ class Product:
 
 
 def write(product: Product, folder: Path, command: str, footer: str) -> list[Path]:
-    """Write data.csv, figure.png and statements.md; return their paths."""
+    """Write data.csv, figure.png, figure.svg and statements.md; return their paths."""
     folder.mkdir(parents=True, exist_ok=True)
-    data, picture, page = folder / "data.csv", folder / "figure.png", folder / "statements.md"
+    data, page = folder / "data.csv", folder / "statements.md"
+    pictures = [folder / "figure.png", folder / "figure.svg"]
     write_table(data, product.rows)
-    save(product.picture, picture)
+    for picture in pictures:
+        save(product.picture, picture)
     page.write_text(_page(product, command, footer))
-    return [data, picture, page]
+    return [data, *pictures, page]
 
 
 def _page(product: Product, command: str, footer: str) -> str:

@@ -52,7 +52,7 @@ def figure(
     scheduler: options.SchedulerOption = None,
     progress: options.ProgressOption = True,
 ) -> None:
-    """Compute figures of the papers anew: data.csv, figure.png and statements.md, in results/figure-N.
+    """Compute figures of the papers anew: data.csv, figure.png, figure.svg and statements.md, in results/figure-N.
 
     Safe to interrupt and to repeat: finished runs are kept in results/runs.
     """

@@ -70,6 +70,8 @@ RECORDS = dict.fromkeys(("3.6", "3.7", "3.8", "3.9", "3.11"), "packing")
 PRECISE = frozenset({"4.4", "5.1", "5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "closed-form", "engines"})
 """Figures without chance, whose runs are kept in double precision."""
 NUMBERS = (*MODULES, *STUDIES)
+ON_THE_PAGE = (*STUDIES, *MODULES)
+"""Figures in the order of the page of claims."""
 GROUPS = {"all": tuple(MODULES), "F": tuple(STUDIES)}
 """Names for many figures."""
 

@@ -32,13 +32,12 @@ def claims(
     """
     from studies.claims.page import page
     from studies.claims.sections import forget_others, record_file, section
-    from studies.registry import MODULES, STUDIES
+    from studies.registry import ON_THE_PAGE
 
-    figures = [*STUDIES, *MODULES]
-    wanted = _figures(compute or [], figures)
+    wanted = _figures(compute or [], list(ON_THE_PAGE))
     laboratory = Laboratory(locate.program(program), results / "runs", processes, progress, scheduler)
     sections = []
-    for figure in figures:
+    for figure in ON_THE_PAGE:
         if figure in wanted or record_file(docs, figure).exists():
             sections.append(section(figure, laboratory, docs, figure in wanted)[0])
         else:

@@ -12,9 +12,9 @@ from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.verdicts import Verdict
 from studies.claims.command import PAGE, claims
 from studies.claims.page import page
-from studies.claims.sections import FOLDER, Section, ratchet_sections, record_file, thesis_section
+from studies.claims.sections import FOLDER, Section, record_file, section
 from studies.examples import GENERATED
-from studies.registry import MODULES
+from studies.registry import NUMBERS, ON_THE_PAGE
 
 LARGEST = 2**20
 """Bytes of all records together."""
@@ -23,8 +23,7 @@ LARGEST = 2**20
 @cache
 def sections() -> tuple[Section, ...]:
     laboratory = Laboratory(built(PROGRAM), Path("nowhere"), show_progress=False)
-    thesis = [thesis_section(figure, laboratory, GENERATED, compute=False)[0] for figure in MODULES]
-    return (*ratchet_sections(GENERATED), *thesis)
+    return tuple(section(figure, laboratory, GENERATED, compute=False)[0] for figure in ON_THE_PAGE)
 
 
 def test_the_page_is_what_its_records_say() -> None:
@@ -54,7 +53,7 @@ def test_every_difference_has_its_cause_and_what_is_open_its_cost() -> None:
 def test_the_records_are_small_and_each_belongs_to_a_figure() -> None:
     files = set((GENERATED / FOLDER).glob("*.parquet"))
     assert sum(file.stat().st_size for file in files) < LARGEST
-    assert files <= {record_file(GENERATED, figure) for figure in MODULES}
+    assert files <= {record_file(GENERATED, figure) for figure in NUMBERS}
 
 
 def test_a_row_that_is_not_there_is_named_with_what_there_is(tmp_path: Path) -> None:
@@ -66,8 +65,6 @@ def test_a_row_that_is_not_there_is_named_with_what_there_is(tmp_path: Path) -> 
 def test_a_figure_is_computed_anew_and_then_kept(tmp_path: Path, jostle: Path) -> None:
     docs, results = tmp_path / "docs", tmp_path / "results"
     docs.mkdir()
-    for name in ("ratchet.csv", "ratchet-flow.csv"):
-        (docs / name).write_bytes((GENERATED / name).read_bytes())
     words = ["--docs", str(docs), "--results", str(results), "--program", str(jostle), "--no-progress"]
     first = CliRunner().invoke(application("claims", claims), ["--compute", "5.6-1", *words])
     assert first.exit_code == 0, first.output

@@ -134,7 +134,7 @@ def test_small_figure_from_end_to_end(laboratory: Laboratory, tmp_path: Path, mo
     monkeypatch.setattr(shape, "ASYMMETRIES", (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5))
     monkeypatch.setattr(shape, "tooth", lambda h, a: Case(h, a, 25.0, 69, 24, 6.0))
     folder = tmp_path / "results"
-    data, picture, statements = make_figure("F6", laboratory, folder, quick=True, seeds=3)
+    data, picture, _, statements = make_figure("F6", laboratory, folder, quick=True, seeds=3)
     assert len(data.read_text().splitlines()) == 1 + 3 * 5
     assert picture.stat().st_size > 10_000
     assert "IV A, Fig. 6" in statements.read_text()

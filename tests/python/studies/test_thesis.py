@@ -80,7 +80,7 @@ def test_statements_page_keeps_bars_in_their_cells(tmp_path: Path) -> None:
     figure = maker("6.4").__globals__["Figure"]()
     statement = Statement("1.1", "|x| small", "|x| = 0.1 +- 0.2", Verdict.AGREES)
     product = Product("Title", [{"x": 1.0}], figure, [statement], ["a note"])
-    _, _, page = write(product, tmp_path / "figure", "command", "footer")
+    *_, page = write(product, tmp_path / "figure", "command", "footer")
     row = next(line for line in page.read_text().splitlines() if line.startswith("| 1.1"))
     assert row == r"| 1.1 | \|x\| small | \|x\| = 0.1 +- 0.2 | agrees |  |"
 
@@ -120,7 +120,7 @@ def test_small_figure_from_end_to_end(laboratory: Laboratory, tmp_path: Path, mo
     monkeypatch.setattr(wedge, "QUICK", Effort(1e5, 2))
     monkeypatch.setattr(wedge_collapse, "QUICK_TILTS", (0.0, 8.0, 20.0))
     product = wedge_collapse.make(laboratory, True)
-    data, picture, page = write(product, tmp_path / "figure-6.4", "command", "footer")
+    data, picture, _, page = write(product, tmp_path / "figure-6.4", "command", "footer")
     rows = [row for row in data.read_text().splitlines()[1:] if row]
     assert len(rows) == 9 * 3
     assert picture.stat().st_size > 10_000

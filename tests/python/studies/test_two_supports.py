@@ -90,7 +90,7 @@ def test_figure_of_the_path_from_end_to_end(
 ) -> None:
     monkeypatch.setattr(three_disk_path, "QUICK_SAMPLES", 300)
     product = three_disk_path.make(laboratory, True)
-    data, picture, _ = write(product, tmp_path / "figure-5.6", "command", "footer")
+    data, picture, *_ = write(product, tmp_path / "figure-5.6", "command", "footer")
     assert len(data.read_text().splitlines()) == 1 + 2 * (300 * three_disk.PERIODS + 1)
     assert picture.stat().st_size > 10_000
     *agreed, edge = product.statements

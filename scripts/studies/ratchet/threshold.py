@@ -65,9 +65,9 @@ def plan(quick: bool) -> Plan:
     """The curve; longer runs near the onset; later starts; other tips."""
     if quick:
         return {case(g): 3 for g in (GAMMAS[0], *COARSE)}
-    longer = {case(g, LONG): 5 for g in NEAR}
-    later = {case(g, 30.0, 60.0): 6 for g in NEAR}
-    tips = {case(g).with_changes(tooth__tip_radius=tip): 8 for g in COARSE for tip in TIPS}
+    longer = {case(g, LONG): 2 for g in NEAR}
+    later = {case(g, 30.0, 60.0): 3 for g in NEAR}
+    tips = {case(g).with_changes(tooth__tip_radius=tip): 4 for g in COARSE for tip in TIPS}
     return {**{case(g): 5 if g <= RESTING else 30 for g in GAMMAS}, **longer, **later, **tips}
 
 
@@ -187,7 +187,7 @@ def tables(points: Points) -> list[Table]:
     if tips:
         same = Curve(*zip(*((x, p) for x, p in zip(curve.x, curve.points, strict=True) if x in COARSE), strict=True))
         tips.insert(2, _fit_row("tip radius 0.4 mm, 30 runs, the same Gamma", fit(same)))
-        found.append(Table("Onset against the tip radius, eight runs, Gamma up to 4, equal weights", HEADER, tips))
+        found.append(Table("Onset against the tip radius, four runs, Gamma up to 4, equal weights", HEADER, tips))
     lengths = _lengths(points)
     return [*found, lengths] if lengths else found
 
@@ -207,7 +207,7 @@ def _lengths(points: Points) -> Table | None:
     if not all(c in points for c in cases.values()):
         return None
     rows = [[f"{g:g}", *(str(points[cases[g, kind]].estimate) for kind, _, _ in kinds)] for g in NEAR]
-    title = "Velocity [cm/s] near the onset by the time over which it is averaged, 30, 6 and 5 runs"
+    title = "Velocity [cm/s] near the onset by the time over which it is averaged, 30, 3 and 2 runs"
     return Table(title, ["Gamma", *(kind for kind, _, _ in kinds)], rows)
 
 

@@ -14,6 +14,7 @@ own but rounding. Not here: order of the exchange with the grains (`coupling`).
 import cmath
 import math
 from dataclasses import dataclass
+from operator import mul
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +23,9 @@ from scipy.linalg import expm
 
 from jostle_lab.errors import require
 from jostle_lab.loudspeaker.driver import CARRIED_MASS, GBS_250F38CP01_04, Driver
+
+DIGITS = 12
+"""Decimal places of the transition matrix: those that linear algebra on every processor agrees on."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +82,7 @@ class Loudspeaker:
         self._mark = _Mark()
         self._state = np.zeros(3)
         self._input = np.zeros(6)
-        self._transitions: dict[tuple[float, float], NDArray[np.float64]] = {}
+        self._transitions: dict[tuple[float, float], list[list[float]]] = {}
         self._transition = self._transition_matrix()
 
     def system_matrix(self) -> NDArray[np.float64]:
@@ -92,7 +96,7 @@ class Loudspeaker:
             ]
         )
 
-    def _transition_matrix(self) -> NDArray[np.float64]:
+    def _transition_matrix(self) -> list[list[float]]:
         """First three rows of exp(M h) for the state (i, x, v, F + W, u, du/dt / (2 pi f)), shape (3, 6)."""
         key = (self.step_size, self.drive_frequency)
         if key not in self._transitions:
@@ -105,7 +109,8 @@ class Loudspeaker:
             joined[0, 4] = 1.0 / self.driver.coil_inductance
             joined[4, 5] = angular_frequency
             joined[5, 4] = -angular_frequency
-            self._transitions[key] = np.ascontiguousarray(expm(joined * self.step_size)[:3])
+            exact = expm(joined * self.step_size)[:3]
+            self._transitions[key] = [[float(f"{value:.{DIGITS}e}") for value in row] for row in exact.tolist()]
         return self._transitions[key]
 
     def retune(self, drive_frequency: float) -> None:
@@ -168,7 +173,9 @@ class Loudspeaker:
         self._input[3] = reaction_force + self.grains_weight
         self._input[4] = self.voltage_amplitude * math.sin(phase)
         self._input[5] = self.voltage_amplitude * math.cos(phase)
-        self._state = self._transition @ self._input
+        # Rounded once: vector units add up in an order of their own, and grains make another run of another last bit.
+        entries = self._input.tolist()
+        self._state = np.array([math.fsum(map(mul, row, entries)) for row in self._transition])
         self.steps_taken += 1
         return float(-reaction_force * (self._state[1] - before))
 

@@ -3,7 +3,6 @@
 A run is found again by its arguments and by the program itself: rebuild the program and everything is run anew.
 """
 
-import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -15,8 +14,9 @@ from tqdm import tqdm
 
 from jostle_lab.errors import LabError
 from jostle_lab.locate import fingerprint
-from jostle_lab.programs import output_of, timed
+from jostle_lab.programs import output_of
 from jostle_lab.runs.dask_backend import dask_backend
+from jostle_lab.runs.kept import perform
 from jostle_lab.runs.records import Record, Records
 from jostle_lab.runs.run import Run
 from jostle_lab.tables import Table, parse_csv
@@ -49,8 +49,8 @@ class Laboratory:
 
     @cached_property
     def _kept_run(self) -> Any:
-        """`_perform`, kept by joblib: found again by version and arguments."""
-        return Memory(self.kept, verbose=0).cache(_perform, ignore=["program"])
+        """`kept.perform`, kept by joblib: found again by version and arguments."""
+        return Memory(self.kept, verbose=0).cache(perform, ignore=["program"])
 
     def run(self, runs: Sequence[Run], title: str) -> dict[Run, Table]:
         """Every run's table; those that are on disk already are read only."""
@@ -122,15 +122,3 @@ class Laboratory:
             numbers = [values] if isinstance(values, int | float) else values
             words += ["--set", name.replace("__", ".") + "=" + ",".join(repr(float(number)) for number in numbers)]
         return parse_csv(output_of(words))
-
-
-def _perform(program: Path, version: str, arguments: list[str]) -> tuple[Table, float]:
-    """Table of a run and its processor time [s]; `version` is there for joblib: another program, another run."""
-    del version
-    with tempfile.TemporaryDirectory(prefix="jostle-") as folder:
-        output, messages = Path(folder) / "run.csv", Path(folder) / "messages"
-        words = [str(program), *arguments, "--output", str(output)]
-        ended = timed(words, messages)
-        if ended.code != 0:
-            raise LabError(f"{' '.join(words)} failed:\n{messages.read_text(errors='replace').strip()}")
-        return parse_csv(output.read_text()), ended.processor_seconds

@@ -31,20 +31,21 @@ def claims(
     Safe to interrupt and to repeat: finished runs are kept in results/runs.
     """
     from studies.claims.page import page
-    from studies.claims.sections import forget_others, record_file, section
+    from studies.claims.sections import forget_others, known, section
     from studies.registry import ON_THE_PAGE
 
     wanted = _figures(compute or [], list(ON_THE_PAGE))
     laboratory = Laboratory(locate.program(program), results / "runs", processes, progress, scheduler)
-    sections = []
-    for figure in ON_THE_PAGE:
-        if figure in wanted or record_file(docs, figure).exists():
-            sections.append(section(figure, laboratory, docs, figure in wanted)[0])
-        else:
-            typer.echo(f"{figure} has no record and is left out: --compute {figure} makes one", err=True)
+    computed = {
+        figure: section(figure, laboratory, docs, compute=True)[0] for figure in ON_THE_PAGE if figure in wanted
+    }
+    recorded, missing = known(docs)
+    sections = [computed.get(figure) or section(figure, laboratory, docs, compute=False)[0] for figure in recorded]
+    for figure in missing:
+        typer.echo(f"{figure} has no record and is left out: --compute {figure} makes one", err=True)
     if wanted:
         forget_others(sections, docs)
-    replace_text(docs / PAGE, page(sections))
+    replace_text(docs / PAGE, page(sections, missing))
     typer.echo(docs / PAGE)
 
 

@@ -23,14 +23,16 @@ thesis, Cinvestav Mérida, 2018. This page is generated from the records in `doc
 """
 
 
-def page(sections: Sequence[Section]) -> str:
-    """The whole page."""
+def page(sections: Sequence[Section], missing: Sequence[str]) -> str:
+    """The whole page; `missing` are the figures that have no record yet."""
     thesis = [s for s in sections if not s.figure.startswith("F")]
     ratchet = [s for s in sections if s.figure.startswith("F")]
     lines = [HEAD, _counts((("F", ratchet), ("P", thesis))), ""]
     lines += _differences("Where ours differs, and why", sections, (Verdict.DISAGREES,))
     lines += _differences("What holds in part", sections, (Verdict.PARTLY,))
     lines += _differences("What is open, and what it would take", sections, (Verdict.OPEN,))
+    if missing:
+        lines += ["", "## Not computed yet", "", *(f"- `claims --compute {figure}`" for figure in missing)]
     for name, part in (("F: the ratchet", ratchet), ("P: spontaneous rotation", thesis)):
         lines += ["", f"## {name}"]
         for section in part:

@@ -8,7 +8,7 @@ from jostle_lab.plots.style import house_style
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.runs.records import Records
 from jostle_lab.statements import Product, Statement
-from studies.registry import MODULES, NUMBERS, PRECISE, RECORDS, STUDIES, maker
+from studies.registry import MODULES, NUMBERS, ON_THE_PAGE, PRECISE, RECORDS, STUDIES, maker
 
 FOLDER = "claims"
 """Folder of the records, beside the page."""
@@ -65,6 +65,12 @@ def section(figure: str, laboratory: Laboratory, docs: Path, compute: bool) -> t
         product.tables,
     )
     return found, product
+
+
+def known(docs: Path) -> tuple[list[str], list[str]]:
+    """Figures that have a record, and those that have none yet."""
+    recorded = [figure for figure in ON_THE_PAGE if record_file(docs, figure).exists()]
+    return recorded, [figure for figure in ON_THE_PAGE if figure not in recorded]
 
 
 def forget_others(sections: Sequence[Section], docs: Path) -> None:

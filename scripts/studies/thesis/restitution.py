@@ -39,14 +39,12 @@ def make(laboratory: Laboratory, _quick: bool, _seeds: int | None = None) -> Pro
     table = thinned(laboratory)
     checked = {value: integrated(laboratory, value) for value in LINES}
     kappa = table["stiffness_ratio"]
-    found: Curves = {
-        value: (table["velocity_ratio"][kappa == value], table["restitution"][kappa == value])
-        for value in (*LINES, BEYOND)
-    }
-    one = kappa == 1.0
+    of = {value: np.isclose(kappa, value) for value in (*LINES, BEYOND)}  # kept in single precision
+    found: Curves = {value: (table["velocity_ratio"][rows], table["restitution"][rows]) for value, rows in of.items()}
+    one = of[1.0]
     sliding = (table["velocity_ratio"][one], table["full_sliding"][one])
     normal = float(table["normal_restitution"][0])
-    slides_from = {value: float(table["slides_from"][kappa == value][0]) for value in found}
+    slides_from = {value: float(table["slides_from"][rows][0]) for value, rows in of.items()}
     names = list(table)
     rows = [dict(zip(names, map(float, row), strict=True)) for row in zip(*table.values(), strict=True)]
     notes = [

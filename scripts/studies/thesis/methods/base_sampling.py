@@ -265,7 +265,7 @@ def _moments() -> list[Statement]:
 CAUSES = {
     "factor": "",
     "sense": "",
-    "rejected": "",
+    "rejected": "in packings the share is at the bound itself; a CPU hour would tell on which side of it",
     "slow": "a slip in P: a slow disk is met by the base where it is highest, and there it is at rest; v_b goes to 0",
 }
 """Why ours differs, by statement."""

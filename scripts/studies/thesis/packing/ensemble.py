@@ -32,7 +32,9 @@ SOFT_GAMMAS = {
     1e6: (0.4, 0.8, 0.9, 1.0, 1.2, 2.0, 5.0, 10.0, 20.0),
 }
 """Of molecular dynamics, by stiffness: the stiffer, the more a second costs."""
-PACKINGS, EVENT_PACKINGS = 25, 100
+PACKINGS = {1e4: 25, 1e5: 25, 1e6: 8}
+"""By stiffness."""
+EVENT_PACKINGS = 100
 
 
 @dataclass(frozen=True)
@@ -64,13 +66,13 @@ def soft(stiffness: float, gamma: float) -> Point:
         settling, observed = (10 if gamma < 1.0 else 6), 12
     else:
         settling, observed = (8 if gamma < 1.0 else 4), 6
-    return Point(MOLECULAR, stiffness, gamma, settling, observed, PACKINGS)
+    return Point(MOLECULAR, stiffness, gamma, settling, observed, PACKINGS[stiffness])
 
 
 def hard(method: Method, stiffness: float, gamma: float) -> Point:
     """Event-driven dynamics, as long as the soft disks it is compared with; the stiffness decides the restitution."""
     like = soft(stiffness, gamma)
-    return Point(method, stiffness, gamma, like.settling, like.observed, PACKINGS)
+    return Point(method, stiffness, gamma, like.settling, like.observed, like.packings)
 
 
 def hard_at_length(gamma: float) -> Point:

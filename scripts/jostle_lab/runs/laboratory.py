@@ -12,12 +12,11 @@ from typing import Any
 from joblib import Memory, Parallel, delayed
 from tqdm import tqdm
 
-from jostle_lab.errors import LabError
 from jostle_lab.locate import fingerprint
 from jostle_lab.programs import output_of
 from jostle_lab.runs.dask_backend import dask_backend
 from jostle_lab.runs.kept import perform
-from jostle_lab.runs.records import Record, Records
+from jostle_lab.runs.records import NotKeptError, Record, Records
 from jostle_lab.runs.run import Run
 from jostle_lab.tables import Table, parse_csv
 
@@ -103,7 +102,7 @@ class Laboratory:
 
     def _refuse_if_frozen(self, missing: int, title: str) -> None:
         if self.frozen and missing:
-            raise LabError(f"{missing} runs of {title} are not kept in {self.records and self.records.file}.")
+            raise NotKeptError(f"{missing} runs of {title} are not kept in {self.records and self.records.file}.")
 
     def _performed(self, runs: Sequence[Run], title: str) -> Iterator[tuple[Table, float]]:
         """Tables and processor times in the order of the runs; here, or on the workers of the scheduler."""

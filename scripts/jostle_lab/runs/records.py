@@ -19,6 +19,10 @@ from jostle_lab.tables import Table
 Fetch = Callable[[], Table]
 
 
+class NotKeptError(LabError):
+    """A run or a column that a record lacks."""
+
+
 def schema(single: bool) -> dict[str, pl.DataType]:
     """Columns of the file."""
     text = pl.String()
@@ -50,7 +54,7 @@ class Recorded(dict[str, NDArray[np.float64]]):
     def __missing__(self, name: str) -> NDArray[np.float64]:
         """Fetch the table and take what is not there yet."""
         if self._fetch is None:
-            raise LabError(f"{name} is not kept of the run `{self._name}`. Compute its figure anew.")
+            raise NotKeptError(f"{name} is not kept of the run `{self._name}`. Compute its figure anew.")
         for other, column in self._fetch().items():
             self.setdefault(other, column)
         if name not in self:

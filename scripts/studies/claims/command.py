@@ -31,7 +31,7 @@ def claims(
     Safe to interrupt and to repeat: finished runs are kept in results/runs.
     """
     from studies.claims.page import page
-    from studies.claims.sections import forget_others, known, section
+    from studies.claims.sections import forget_others, kept, section
     from studies.registry import ON_THE_PAGE
 
     wanted = _figures(compute or [], list(ON_THE_PAGE))
@@ -39,10 +39,9 @@ def claims(
     computed = {
         figure: section(figure, laboratory, docs, compute=True)[0] for figure in ON_THE_PAGE if figure in wanted
     }
-    recorded, missing = known(docs)
-    sections = [computed.get(figure) or section(figure, laboratory, docs, compute=False)[0] for figure in recorded]
+    sections, missing = kept(laboratory, docs, computed)
     for figure in missing:
-        typer.echo(f"{figure} has no record and is left out: --compute {figure} makes one", err=True)
+        typer.echo(f"{figure} has no whole record and is left out: --compute {figure} completes it", err=True)
     if wanted:
         forget_others(sections, docs)
     replace_text(docs / PAGE, page(sections, missing))

@@ -1,12 +1,13 @@
 """The claims of one figure: what its study says, from the record of its runs."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 from jostle_lab.plots.style import house_style
 from jostle_lab.runs.laboratory import Laboratory
-from jostle_lab.runs.records import Records
+from jostle_lab.runs.records import NotKeptError, Records
 from jostle_lab.statements import Product, Statement
 from studies.registry import MODULES, NUMBERS, ON_THE_PAGE, PRECISE, RECORDS, STUDIES, maker
 
@@ -48,10 +49,12 @@ def section(figure: str, laboratory: Laboratory, docs: Path, compute: bool) -> t
     records = Records(record_file(docs, figure), single=figure not in PRECISE)
     laboratory.records, laboratory.frozen = records, not compute
     laboratory.spent, laboratory.asked = 0.0, {}
-    with house_style():
-        product = maker(figure)(laboratory, False, None)
-    if compute:
-        records.write()
+    try:
+        with house_style():
+            product = maker(figure)(laboratory, False, None)
+    finally:
+        if compute:
+            records.write()
     laboratory.records, laboratory.frozen = None, False
     seeds = [seed for seed in laboratory.asked.values() if seed is not None]
     found = Section(
@@ -67,10 +70,17 @@ def section(figure: str, laboratory: Laboratory, docs: Path, compute: bool) -> t
     return found, product
 
 
-def known(docs: Path) -> tuple[list[str], list[str]]:
-    """Figures that have a record, and those that have none yet."""
-    recorded = [figure for figure in ON_THE_PAGE if record_file(docs, figure).exists()]
-    return recorded, [figure for figure in ON_THE_PAGE if figure not in recorded]
+def kept(
+    laboratory: Laboratory, docs: Path, computed: Mapping[str, Section] = MappingProxyType({})
+) -> tuple[list[Section], list[str]]:
+    """Sections of the page, those `computed` and those whose records are whole; and the figures that have neither."""
+    found, missing = [], []
+    for figure in ON_THE_PAGE:
+        try:
+            found.append(computed.get(figure) or section(figure, laboratory, docs, compute=False)[0])
+        except NotKeptError:
+            missing.append(figure)
+    return found, missing
 
 
 def forget_others(sections: Sequence[Section], docs: Path) -> None:

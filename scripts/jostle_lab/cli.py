@@ -31,6 +31,8 @@ def application(help_text: str, *commands: Callable[..., None]) -> typer.Typer:
         rich_markup_mode=None,
         help=help_text,
     )
+    # With a callback a single command, too, is called by its name.
+    app.callback()(lambda: None)
     for command in commands:
         app.command()(command)
     return app
@@ -80,5 +82,9 @@ def call(app: typer.Typer) -> None:
 def main() -> None:
     """Entry point."""
     call(
-        application(HELP, demo, draw, exchanges, held_loop, step_control, sweep, ratchet_demo, torque_demo, loudspeaker)
+        application(
+            HELP,
+            *(demo, draw, exchanges, held_loop, step_control, sweep, ratchet_demo, torque_demo, loudspeaker),
+            lazily("studies.claims.command:claims"),
+        )
     )

@@ -1,10 +1,39 @@
 """Other programs, run to their end."""
 
+import os
 import subprocess
+import threading
+import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from jostle_lab.errors import LabError
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a program ended and what it cost."""
+
+    code: int
+    """Exit code; negative: the signal that ended it."""
+    processor_seconds: float
+    clock_seconds: float
+
+
+def timed(words: Sequence[str | Path], messages: Path, limit: float | None = None) -> Ended:
+    """Run a program, its messages into a file; `limit` [s] on the clock, after which it is killed."""
+    begun = time.perf_counter()
+    with messages.open("wb") as file:
+        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file)
+    timer = threading.Timer(limit, process.kill) if limit else None
+    if timer:
+        timer.start()
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if timer:
+        timer.cancel()
+    return Ended(process.returncode, usage.ru_utime + usage.ru_stime, time.perf_counter() - begun)
 
 
 def completed(words: Sequence[str | Path], folder: Path | None = None) -> subprocess.CompletedProcess[str]:

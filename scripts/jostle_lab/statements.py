@@ -2,28 +2,16 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from matplotlib.figure import Figure
 
 from jostle_lab.plots.style import save
 from jostle_lab.tables import write_table
+from jostle_lab.verdicts import Judgement, Verdict, verdict
 
-
-class Verdict(StrEnum):
-    """Whether a printed statement holds."""
-
-    AGREES = "agrees"
-    PARTLY = "partly"
-    DISAGREES = "disagrees"
-    OPEN = "open"
-
-
-def verdict(holds: bool) -> Verdict:
-    """Agreement, yes or no."""
-    return Verdict.AGREES if holds else Verdict.DISAGREES
+__all__ = ["Judgement", "Product", "Statement", "Verdict", "cell", "verdict", "write"]
 
 
 @dataclass(frozen=True)
@@ -35,6 +23,15 @@ class Statement:
     printed: str
     found: str
     verdict: Verdict
+    rule: str = ""
+    """What the verdict was decided by."""
+    cause: str = ""
+    """Why ours differs, if it does; or what it would cost to decide, if that is open."""
+
+    @classmethod
+    def judged(cls, place: str, printed: str, found: str, judgement: Judgement, cause: str = "") -> Self:
+        """A statement with the verdict and the rule of a judgement."""
+        return cls(place, printed, found, judgement.verdict, judgement.rule, cause)
 
 
 @dataclass(frozen=True)
@@ -52,19 +49,24 @@ class Product:
 
 
 def write(product: Product, folder: Path, command: str, footer: str) -> list[Path]:
-    """Write data.csv, figure.png and statements.md; return their paths."""
+    """Write data.csv, figure.png, figure.svg and statements.md; return their paths."""
     folder.mkdir(parents=True, exist_ok=True)
-    data, picture, page = folder / "data.csv", folder / "figure.png", folder / "statements.md"
+    data, page = folder / "data.csv", folder / "statements.md"
+    pictures = [folder / "figure.png", folder / "figure.svg"]
     write_table(data, product.rows)
-    save(product.picture, picture)
+    for picture in pictures:
+        save(product.picture, picture)
     page.write_text(_page(product, command, footer))
-    return [data, picture, page]
+    return [data, *pictures, page]
 
 
 def _page(product: Product, command: str, footer: str) -> str:
-    rows = [f"| {s.place} | {cell(s.printed)} | {cell(s.found)} | {s.verdict} |" for s in product.statements]
+    rows = [
+        f"| {s.place} | {cell(s.printed)} | {cell(s.found)} | {s.verdict} | {cell(s.rule)} |"
+        for s in product.statements
+    ]
     notes = [f"- {note}" for note in product.notes]
-    header = ["| where | printed | ours | |", "|:--|:--|:--|:--|"]
+    header = ["| where | printed | ours | | rule |", "|:--|:--|:--|:--|:--|"]
     tables = [line for table in product.tables for line in ("", *table.splitlines())]
     return "\n".join(
         [f"# {product.title}", "", f"`{command}`", "", *header, *rows, "", *notes, f"- {footer}", *tables, ""]

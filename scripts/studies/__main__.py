@@ -4,7 +4,7 @@ if __name__ == "__main__":
     try:
         from jostle_lab.cli import application, call, lazily
 
-        commands = ("studies.figures:figure", "studies.ratchet.page:ratchet_page")
+        commands = ("studies.figures:figure", "studies.thesis.laboratory.command:laboratory")
         call(application("Figures of both papers, computed anew.", *map(lazily, commands)))
     except KeyboardInterrupt:
         raise SystemExit(130) from None

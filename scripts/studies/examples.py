@@ -16,7 +16,10 @@ CARGO = ("cargo", "run", "--release", "--quiet", "--package", "jostle-bench", "-
 
 def example(laboratory: Laboratory, name: str, *arguments: str) -> Table:
     """What a Rust example prints as CSV."""
-    begun = time.perf_counter()
-    table = parse_csv(output_of([*CARGO, name, "--", *arguments], ROOT))
-    laboratory.spent += time.perf_counter() - begun
-    return table
+
+    def compute() -> tuple[Table, float]:
+        begun = time.perf_counter()
+        table = parse_csv(output_of([*CARGO, name, "--", *arguments], ROOT))
+        return table, time.perf_counter() - begun
+
+    return laboratory.computed(" ".join(["example", name, *arguments]), compute)

@@ -1,8 +1,6 @@
 """`python -m studies figure`."""
 
 import time
-from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
 from typing import Annotated
 
@@ -12,63 +10,8 @@ from jostle_lab import locate, options
 from jostle_lab.errors import LabError, did_you_mean
 from jostle_lab.plots.style import house_style
 from jostle_lab.runs.laboratory import Laboratory
-from jostle_lab.statements import Product, Verdict, write
-
-Maker = Callable[[Laboratory, bool, int | None], Product]
-
-MODULES = {
-    "3.10": "packing.paths",
-    "3.11": "packing.comparison",
-    "4.3": "two_supports.region",
-    "4.5": "restitution",
-    "5.1": "two_supports.regimes",
-    "5.2": "two_supports.amplitude:linear",
-    "5.3": "two_supports.amplitude:logarithmic",
-    "5.4": "two_supports.tilt:linear",
-    "5.5": "two_supports.tilt:logarithmic",
-    "5.6": "two_supports.path",
-    "5.7": "two_supports.amplitude:closed_form",
-    "5.8": "two_supports.random_supports:against_amplitude",
-    "5.9": "two_supports.random_supports:against_tilt",
-    "6.3": "wedge.dynamics",
-    "6.4": "wedge.collapse",
-    "6.5": "wedge.engines",
-    "6.6": "wedge.friction",
-    "6.7": "wedge.aperture",
-    "6.8": "wedge.restitution",
-    "6.9": "wedge.stiffness_ratio",
-    "engines": "engines",
-    "closed-form": "two_supports.closed_form",
-    "supports": "two_supports.noise",
-}
-"""Figure of the thesis and the module of `studies.thesis` that makes it, with its function if that is not `make`."""
-STUDIES = {
-    "F3": "experiment:EXPERIMENT",
-    "F6": "shape:ASYMMETRY",
-    "F7": "shape:HEIGHT",
-    "F8": "layers:NEGATIVE",
-    "F9": "layers:POSITIVE",
-    "F10": "frequency:LAYERS",
-    "F11": "threshold:ONSET",
-    "F12": "frequency:TRANSITION",
-    "F13": "flow:FORWARDS",
-    "F14": "flow:BACKWARDS",
-}
-"""Figure of F and the study in `studies.ratchet` that makes it."""
-NUMBERS = (*MODULES, *STUDIES)
-GROUPS = {"all": tuple(MODULES), "F": tuple(STUDIES)}
-"""Names for many figures."""
-
-
-def maker(number: str) -> Maker:
-    """The function that makes a figure."""
-    if number in STUDIES:
-        module, name = STUDIES[number].split(":")
-        made: Maker = getattr(import_module(f"studies.ratchet.{module}"), name).make
-        return made
-    module, _, function = MODULES[number].partition(":")
-    found: Maker = getattr(import_module(f"studies.thesis.{module}"), function or "make")
-    return found
+from jostle_lab.statements import Verdict, write
+from studies.registry import GROUPS, MODULES, NUMBERS, STUDIES, maker
 
 
 def make_figure(number: str, laboratory: Laboratory, results: Path, quick: bool, seeds: int | None) -> list[Path]:
@@ -109,9 +52,9 @@ def figure(
     scheduler: options.SchedulerOption = None,
     progress: options.ProgressOption = True,
 ) -> None:
-    """Compute figures of the papers anew: data.csv, figure.png and statements.md, in results/figure-N.
+    """Compute figures of the papers anew: data.csv, figure.png, figure.svg and statements.md, in results/figure-N.
 
-    Safe to interrupt and to repeat: finished runs are kept in results/runs and results/ratchet-sweep.
+    Safe to interrupt and to repeat: finished runs are kept in results/runs.
     """
     chosen = [number for name in numbers for number in GROUPS.get(name, (name,))]
     unknown = [number for number in chosen if number not in NUMBERS]

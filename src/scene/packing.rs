@@ -9,6 +9,7 @@ pub mod event_driven;
 pub mod hard;
 mod hard_law;
 mod initial_packing;
+mod rotation;
 mod rows;
 mod settled;
 pub mod soft;
@@ -20,6 +21,7 @@ use crate::contact::LinearDashpot;
 use crate::drive::{FixedBottom, FollowsInput, RandomBottom, Sine};
 use crate::engine::dem::event_located::EventStepper;
 use crate::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
+use crate::measure::Rotation;
 use crate::scene::disks_on_base::StepReport;
 
 pub use soft_packing::SoftPacking;
@@ -51,4 +53,6 @@ pub struct PackingState<S> {
     pub report: StepReport,
     /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
     pub start_energy: f64,
+    /// Rotation since `measure.start`.
+    pub rotation: Rotation,
 }

@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
@@ -53,6 +53,8 @@ class Setup:
     """Gamma of the unloaded base at A = 1."""
     accelerometer: Accelerometer = field(default_factory=Accelerometer)
     camera: Camera = field(default_factory=Camera)
+    keep_positions: bool = False
+    """Keep the centres of the disks at each picture in `positions.csv`: what pictures are drawn of."""
 
     def __post_init__(self) -> None:
         """Refuse rates that do not fit together, before anything runs."""
@@ -85,7 +87,7 @@ class Record:
     angles: NDArray[np.float64]
     """[rad, unwrapped], shape (frames, disks), first frame at the start of the recording."""
     positions: NDArray[np.float64]
-    """At the end [m], shape (disks, 2)."""
+    """Centres at each frame [m], shape (frames, disks, 2)."""
     moved: NDArray[np.float64]
     """Distance from start to end of the recording [m], shape (disks,)."""
     work_by_plate: float
@@ -102,11 +104,12 @@ class PackingRun:
         self.loudspeaker = Loudspeaker(1.0 / setup.steps_per_second, setup.drive_frequency, grains.weight)
         self.full_voltage = self.loudspeaker.voltage_for_acceleration(setup.full_drive_gamma * grains.gravity)
         self.coupling = Coupling(self.loudspeaker, grains, setup.exchange)
-        self.sensor_cost, self._started = 0.0, perf_counter()
+        self.sensor_cost, self._started, self._spent = 0.0, perf_counter(), process_time()
         self._amplitudes: list[Row] = []
         self._disks: list[Row] = []
         self._angles: list[NDArray[np.float64]] = []
         self._readings: list[NDArray[np.float64]] = []
+        self._positions: list[NDArray[np.float64]] = []
 
     def shake(self, amplitude: float, seconds: int, progress: Progress) -> None:
         """Shake at a fraction of the full drive, unobserved."""
@@ -123,7 +126,9 @@ class PackingRun:
         sensors = _read_sensors(record, self.setup, (self.seed, number))
         self._amplitudes.append(_amplitude_row(record, sensors, self.setup, self.grains, self.seed))
         self._disks.extend(_disk_rows(record, self.setup, self.grains, self.seed))
-        self._angles.append(_angle_rows(record, self.setup))
+        self._angles.append(_frame_rows(record, self.setup, record.angles))
+        if self.setup.keep_positions:
+            self._positions.append(_frame_rows(record, self.setup, record.positions.reshape(len(record.angles), -1)))
         self._readings.append(_sensor_rows(interval, sensors, self.setup))
         self.sensor_cost += perf_counter() - measuring
 
@@ -136,6 +141,10 @@ class PackingRun:
             rows = np.concatenate(blocks)
             names = ["amplitude", "time", *(f"{column}_{i}" for i in range(1, rows.shape[1] - 1))]
             write_frame(self.folder / f"{file}.csv", pl.DataFrame(rows, schema=names))
+        if self._positions:
+            names = [f"{axis}_{i}" for i in range(1, self.grains.radii.size + 1) for axis in "xy"]
+            rows = np.concatenate(self._positions)
+            write_frame(self.folder / "positions.csv", pl.DataFrame(rows, schema=["amplitude", "time", *names]))
         replace_text(self.folder / UNFINISHED, json.dumps(self._summary(), indent=2) + "\n")
 
     def _summary(self) -> dict[str, Any]:
@@ -144,6 +153,7 @@ class PackingRun:
             "seed": self.seed,
             "simulated_seconds": round(self.loudspeaker.time),
             "wall_seconds": perf_counter() - self._started,
+            "processor_seconds": process_time() - self._spent,
             "communication_steps": self.loudspeaker.steps_taken,
             "costs": {**self.grains.costs, **costs},
             "full_drive_voltage": self.full_voltage,
@@ -168,19 +178,18 @@ def run_packing(grains: Grains, setup: Setup, seed: int, folder: Path, progress:
 def _record(coupling: Coupling, setup: Setup, interval: Interval, progress: Progress) -> Record:
     grains, steps = coupling.grains, setup.steps_per_frame()
     work, received = coupling.work_by_plate, grains.energy_input()
-    start = grains.positions()
-    angles, accelerations = [grains.angles()], []
+    angles, positions, accelerations = [grains.angles()], [grains.positions()], []
     for _ in range(round(interval.recording * setup.camera.frame_rate)):
         accelerations.append(coupling.run(steps))
         angles.append(grains.angles())
+        positions.append(grains.positions())
         progress(1)
-    positions = grains.positions()
     return Record(
         interval,
         np.concatenate(accelerations),
         np.array(angles),
-        positions,
-        np.hypot(*(positions - start).T),
+        np.array(positions),
+        np.hypot(*(positions[-1] - positions[0]).T),
         coupling.work_by_plate - work,
         grains.energy_input() - received,
     )
@@ -216,6 +225,8 @@ def _amplitude_row(
         "gamma_corrected": corrected,
         "bias": measured / true - 1.0,
         "bias_corrected": corrected / true - 1.0,
+        **{f"gamma_sensor_{i}": e.amplitude * in_gamma for i, e in enumerate(estimates, 1)},
+        **{f"mean_reading_{i}": float(np.mean(s)) for i, s in enumerate(sensors, 1)},
         "clipped_readings": sum(int(np.sum(np.abs(s) >= setup.accelerometer.measuring_range)) for s in sensors),
         "work_by_plate": record.work_by_plate,
         "work_received": record.work_received,
@@ -240,8 +251,8 @@ def _disk_rows(record: Record, setup: Setup, grains: Grains, seed: int) -> list[
             "amplitude": record.interval.amplitude,
             "disk": i + 1,
             "radius": grains.radii[i],
-            "x": record.positions[i, 0],
-            "y": record.positions[i, 1],
+            "x": record.positions[-1, i, 0],
+            "y": record.positions[-1, i, 1],
             "moved": record.moved[i],
             "mean_velocity": turned.mean_velocity[i],
             "camera_velocity": compared.camera_velocity[i],
@@ -253,10 +264,11 @@ def _disk_rows(record: Record, setup: Setup, grains: Grains, seed: int) -> list[
     ]
 
 
-def _angle_rows(record: Record, setup: Setup) -> NDArray[np.float64]:
-    frames = record.angles.shape[0]
+def _frame_rows(record: Record, setup: Setup, seen: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Amplitude, time and what is `seen` at each frame, shape (frames, any)."""
+    frames = len(seen)
     time = np.arange(frames) / setup.camera.frame_rate
-    return np.column_stack((np.full(frames, record.interval.amplitude), time, record.angles))
+    return np.column_stack((np.full(frames, record.interval.amplitude), time, seen))
 
 
 def _sensor_rows(interval: Interval, sensors: list[NDArray[np.float64]], setup: Setup) -> NDArray[np.float64]:

@@ -59,6 +59,20 @@ class Results:
         rows = self._record("angles.csv", seed, amplitude)
         return rows[:, 0], rows[:, 1:]
 
+    def positions(self, seed: int, amplitude: float) -> NDArray[np.float64]:
+        """Centres of the disks at each frame [m], shape (frames, disks, 2); only if they were kept."""
+        rows = self._record("positions.csv", seed, amplitude)[:, 1:]
+        return rows.reshape(len(rows), -1, 2)
+
+    def radii(self, seed: int) -> NDArray[np.float64]:
+        """Of the disks [m], shape (disks,)."""
+        first = self.amplitudes_of(seed)[0]["amplitude"]
+        return np.array([disk["radius"] for disk in self.disks_of(seed, first)])
+
+    def folder_of(self, seed: int) -> Path:
+        """Folder of a packing."""
+        return self._folders[seed]
+
     def readings(self, seed: int, amplitude: float) -> NDArray[np.float64]:
         """Kept accelerometer readings [g], shape (samples, sensors)."""
         return self._record("accelerometers.csv", seed, amplitude)[:, 1:]

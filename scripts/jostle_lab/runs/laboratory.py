@@ -4,8 +4,7 @@ A run is found again by its arguments and by the program itself: rebuild the pro
 """
 
 import tempfile
-import time
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -14,8 +13,11 @@ from typing import Any
 from joblib import Memory, Parallel, delayed
 from tqdm import tqdm
 
+from jostle_lab.errors import LabError
 from jostle_lab.locate import fingerprint
-from jostle_lab.programs import output_of
+from jostle_lab.programs import output_of, timed
+from jostle_lab.runs.dask_backend import dask_backend
+from jostle_lab.runs.records import Record, Records
 from jostle_lab.runs.run import Run
 from jostle_lab.tables import Table, parse_csv
 
@@ -30,9 +32,15 @@ class Laboratory:
     processes: int = 2
     show_progress: bool = True
     scheduler: str | None = None
-    """Address of a Dask scheduler for the runs that are swept; None: processes of this machine."""
+    """Address of a Dask scheduler; None: processes of this machine."""
+    records: Records | None = None
+    """What is kept of the runs of a study; asked first."""
+    frozen: bool = False
+    """Run nothing: everything must be in the records."""
     spent: float = field(default=0.0, init=False)
-    """Processor time of all runs asked for so far, also of those found on disk [s]."""
+    """Processor time of all runs asked for so far, each counted once, also of those found on disk [s]."""
+    asked: dict[str, int | None] = field(default_factory=dict, init=False)
+    """Arguments of all runs asked for so far, and their seeds."""
 
     @cached_property
     def version(self) -> str:
@@ -47,14 +55,65 @@ class Laboratory:
     def run(self, runs: Sequence[Run], title: str) -> dict[Run, Table]:
         """Every run's table; those that are on disk already are read only."""
         wanted = list(dict.fromkeys(runs))
-        jobs = (delayed(self._kept_run)(self.program, self.version, run.arguments()) for run in wanted)
-        done = Parallel(self.processes, prefer="threads", return_as="generator")(jobs)
-        bar = tqdm(done, total=len(wanted), unit="run", desc=title, disable=not self.show_progress)
-        tables = {}
-        for run, (table, seconds) in zip(wanted, bar, strict=True):
+        tables: dict[Run, Table] = {}
+        new = {run for run in wanted if run.key() not in self.asked}
+        for run in wanted:
+            self.asked[run.key()] = run.seed
+            if (kept := self._recorded(run)) is not None:
+                tables[run] = kept.table
+                self.spent += kept.seconds if run in new else 0.0
+        missing = [run for run in wanted if run not in tables]
+        self._refuse_if_frozen(len(missing), title)
+        for run, (table, seconds) in zip(missing, self._performed(missing, title), strict=True):
             tables[run] = table
-            self.spent += seconds
-        return tables
+            self.spent += seconds if run in new else 0.0
+            if self.records is not None:
+                tables[run] = self.records.add(run.key(), self.version, seconds, table).table
+        return {run: tables[run] for run in wanted}
+
+    def _recorded(self, run: Run) -> Record | None:
+        """What is kept of a run; further columns come from the run, done again if it must be."""
+        if self.records is None:
+            return None
+
+        def fetch() -> Table:
+            table: Table = self._kept_run(self.program, self.version, run.arguments())[0]
+            return table
+
+        return self.records.find(run.key(), None if self.frozen else fetch)
+
+    def computed(self, key: str, compute: Callable[[], tuple[Table, float]]) -> Table:
+        """A table that is not that of a run, with its processor time [s], by the name under which it is kept."""
+        self.asked[key] = None
+        kept = None
+        if self.records is not None:
+            kept = self.records.find(key, None if self.frozen else lambda: compute()[0])
+        if kept is not None:
+            self.spent += kept.seconds
+            return kept.table
+        self._refuse_if_frozen(1, key)
+        table, seconds = compute()
+        self.spent += seconds
+        return table if self.records is None else self.records.add(key, self.version, seconds, table).table
+
+    def unrecorded(self, runs: Sequence[Run], title: str) -> tuple[list[Table], float]:
+        """Tables of runs of which no record is kept, and their processor time [s]: for what is in `computed`."""
+        done = list(self._performed(runs, title))
+        return [table for table, _ in done], sum(seconds for _, seconds in done)
+
+    def _refuse_if_frozen(self, missing: int, title: str) -> None:
+        if self.frozen and missing:
+            raise LabError(f"{missing} runs of {title} are not kept in {self.records and self.records.file}.")
+
+    def _performed(self, runs: Sequence[Run], title: str) -> Iterator[tuple[Table, float]]:
+        """Tables and processor times in the order of the runs; here, or on the workers of the scheduler."""
+        if not runs:
+            return
+        with dask_backend(self.scheduler):
+            jobs = (delayed(self._kept_run)(self.program, self.version, run.arguments()) for run in runs)
+            threads = None if self.scheduler else "threads"
+            done = Parallel(self.processes, prefer=threads, return_as="generator")(jobs)
+            yield from tqdm(done, total=len(runs), unit="run", desc=title, disable=not self.show_progress)
 
     def theory(self, scene: str, quantity: str, **settings: Sequence[float] | float) -> Table:
         """What `jostle theory` prints; `__` in a name stands for a dot. All combinations, the first name slowest."""
@@ -66,10 +125,12 @@ class Laboratory:
 
 
 def _perform(program: Path, version: str, arguments: list[str]) -> tuple[Table, float]:
-    """Table of a run and the seconds that it took; `version` is there for joblib: another program, another run."""
+    """Table of a run and its processor time [s]; `version` is there for joblib: another program, another run."""
     del version
-    begun = time.perf_counter()
     with tempfile.TemporaryDirectory(prefix="jostle-") as folder:
-        output = Path(folder) / "run.csv"
-        output_of([str(program), *arguments, "--output", str(output)])
-        return parse_csv(output.read_text()), time.perf_counter() - begun
+        output, messages = Path(folder) / "run.csv", Path(folder) / "messages"
+        words = [str(program), *arguments, "--output", str(output)]
+        ended = timed(words, messages)
+        if ended.code != 0:
+            raise LabError(f"{' '.join(words)} failed:\n{messages.read_text(errors='replace').strip()}")
+        return parse_csv(output.read_text()), ended.processor_seconds

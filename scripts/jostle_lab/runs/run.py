@@ -26,3 +26,12 @@ class Run:
         for name, value in self.settings:
             words += ["--set", f"{name}={value!r}"]
         return words
+
+    def key(self) -> str:
+        """The arguments as one text."""
+        return " ".join(self.arguments())
+
+    @property
+    def seed(self) -> int | None:
+        """Seed of the run, if one is set."""
+        return next((int(value) for name, value in self.settings if name == "seed"), None)

@@ -1,17 +1,15 @@
 """Runs onto workers, rows into the store as they come: joblib on this machine, Dask on others."""
 
-import logging
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any
 
 from joblib import Parallel, delayed
 from tqdm import tqdm
 
 from jostle_lab.errors import LabError
+from jostle_lab.runs.dask_backend import client, distributed
 from jostle_lab.runs.run import Run
 from jostle_lab.runs.store import Store
 from jostle_lab.runs.worker import FAILED, Program, failure, perform
@@ -21,14 +19,6 @@ BETWEEN_PARTS = 1.0
 """Shortest time from part to part [s]: a kill loses the rows of this time and the runs that have not ended."""
 AHEAD = 4
 """Runs that are with a scheduler for each that it performs."""
-
-
-def _distributed() -> Any:
-    """Dask, when it is needed: its import takes longer than most commands."""
-    try:
-        return import_module("distributed")
-    except ImportError:
-        raise LabError("Dask is not installed. Install it: pip install 'jostle-lab[cluster]'.") from None
 
 
 @dataclass(frozen=True)
@@ -45,29 +35,14 @@ class Workers:
     def rows(self, program: Program, runs: Sequence[Run]) -> Iterator[Row]:
         """Rows in the order in which the runs end. Raises LabError for a wrong program or a lost scheduler."""
         if self.scheduler is not None:
-            with self._client() as client:
-                yield from self._remote_rows(client, program, runs)
+            with client(self.scheduler, self.patience) as connected:
+                yield from self._remote_rows(connected, program, runs)
             return
         # Threads of this process: each waits for a program of its own, so processes would only cost time and memory.
         parallel = Parallel(self.processes, prefer="threads", return_as="generator_unordered")
         yield from parallel(delayed(perform)(program, run) for run in runs)
 
-    @contextmanager
-    def _client(self) -> Iterator[Any]:
-        dask = _distributed()
-        logging.getLogger("distributed").setLevel(logging.ERROR)
-        try:
-            client = dask.Client(self.scheduler, timeout=self.patience)
-        except (OSError, ValueError) as error:
-            raise LabError(
-                f"No Dask scheduler answers at {self.scheduler}: {error}. Start one: dask scheduler"
-            ) from None
-        with client:
-            if not client.nthreads():
-                raise LabError(f"{self.scheduler} has no workers. Start one: dask worker {self.scheduler}")
-            yield client
-
-    def _remote_rows(self, client: Any, program: Program, runs: Sequence[Run]) -> Iterator[Row]:
+    def _remote_rows(self, connected: Any, program: Program, runs: Sequence[Run]) -> Iterator[Row]:
         """Only so many runs are with the scheduler at a time."""
         left = iter(runs)
         of_future: dict[Any, Run] = {}
@@ -76,12 +51,12 @@ class Workers:
             run = next(left, None)
             if run is None:
                 return None
-            future = client.submit(perform, program, run, key=f"jostle-{program.key(run)}", pure=False)
+            future = connected.submit(perform, program, run, key=f"jostle-{program.key(run)}", pure=False)
             of_future[future.key] = run
             return future
 
-        ahead = max(8, AHEAD * sum(client.nthreads().values()))
-        queue = _distributed().as_completed([submit() for _ in range(min(ahead, len(runs)))])
+        ahead = max(8, AHEAD * sum(connected.nthreads().values()))
+        queue = distributed().as_completed([submit() for _ in range(min(ahead, len(runs)))])
         for future in queue:
             run = of_future.pop(future.key)
             if (another := submit()) is not None:

@@ -1,11 +1,7 @@
 """One run of a sweep, on whatever machine: arguments in, a row out. Needs the program and this package there."""
 
-import os
 import socket
-import subprocess
 import tempfile
-import threading
-import time
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import lru_cache
@@ -14,6 +10,7 @@ from pathlib import Path
 
 from jostle_lab.errors import LabError
 from jostle_lab.locate import fingerprint
+from jostle_lab.programs import timed
 from jostle_lab.runs.run import Run
 from jostle_lab.tables import Row, parse_csv
 
@@ -77,31 +74,15 @@ def perform(program: Program, run: Run) -> Row:
         )
     with tempfile.TemporaryDirectory(prefix="jostle-") as folder:
         output, messages = Path(folder) / "run.csv", Path(folder) / "messages"
-        code, spent, clock = _execute(
-            [program.path, *run.arguments(), "--output", str(output)], messages, program.limit
-        )
+        ended = timed([program.path, *run.arguments(), "--output", str(output)], messages, program.limit)
+        spent, clock = ended.processor_seconds, ended.clock_seconds
         measured = {"processor_seconds": spent, "clock_seconds": clock, "host": socket.gethostname()}
-        if code != 0:
+        if ended.code != 0:
             late = f"Stopped after {program.limit:g} s. " if program.limit and clock >= program.limit else ""
-            text = f"{late}Exit code {code}. {messages.read_text(errors='replace').strip()}"
+            text = f"{late}Exit code {ended.code}. {messages.read_text(errors='replace').strip()}"
             return {**failure(program, run, text), **measured}
         outputs = {name: float(column[-1]) for name, column in parse_csv(output.read_text()).items() if "[" not in name}
     return {**identity(program, run), "state": DONE, "error": None, "finished": _now(), **measured, **outputs}
-
-
-def _execute(words: list[str], messages: Path, limit: float | None) -> tuple[int, float, float]:
-    """Exit code (negative: signal), processor time and time on the clock [s]."""
-    begun = time.perf_counter()
-    with messages.open("wb") as file:
-        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file)
-    timer = threading.Timer(limit, process.kill) if limit else None
-    if timer:
-        timer.start()
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if timer:
-        timer.cancel()
-    return process.returncode, usage.ru_utime + usage.ru_stime, time.perf_counter() - begun
 
 
 def _now() -> str:

@@ -56,3 +56,36 @@ def nearest_neighbours_regression(
     """Mean of the `neighbours` values y whose x lies nearest to each of `at`; the thesis uses 25 (P 3.1)."""
     order = np.argsort(np.abs(at[:, None] - x[None, :]), axis=1, kind="stable")[:, :neighbours]
     return np.asarray(y[order].mean(axis=1))
+
+
+def nearest_neighbours_resampled(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    packing: NDArray[np.float64],
+    neighbours: int,
+    at: NDArray[np.float64],
+    resamples: int = 500,
+) -> NDArray[np.float64]:
+    """The regression for packings drawn with replacement, shape (resamples, len(at)): its scatter is the error.
+
+    Args:
+        x: of each point, shape (points,).
+        y: of each point.
+        packing: number of the packing to which a point belongs; all points of a packing are drawn together.
+        neighbours: of the regression.
+        at: where it is evaluated.
+        resamples: number of resamples, and seed of the generator.
+
+    """
+    order = np.argsort(np.abs(at[:, None] - x[None, :]), axis=1, kind="stable")
+    numbers, member = np.unique(packing, return_inverse=True)
+    sorted_member, sorted_y = member[order], y[order]
+    generator = np.random.default_rng(resamples)
+    curves = np.empty((resamples, len(at)))
+    for curve in curves:
+        times = np.bincount(generator.integers(len(numbers), size=len(numbers)), minlength=len(numbers))
+        weight = times[sorted_member]
+        # A point counts as often as its packing was drawn, until there are `neighbours`.
+        counted = np.clip(neighbours - (np.cumsum(weight, axis=1) - weight), 0, weight)
+        curve[:] = np.sum(counted * sorted_y, axis=1) / neighbours
+    return curves

@@ -5,13 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.collections import PatchCollection
-from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
-from jostle_lab.plots.style import WIDTH
-from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.runs.run import Run
 from jostle_lab.statistics.estimates import Estimate, Numbers
 from jostle_lab.tables import Table
@@ -24,12 +18,6 @@ TIP = 0.4
 PHASES = 6
 BOX = TOOTH / 6.0
 """Side of a box [mm]."""
-INK = "#1f3f78"
-ARROW = 0.25
-"""Length of an arrow [mm] for each disk that moves at 1 cm/s: the same in both figures, as in F."""
-SHOWN_TEETH = 3
-SHOWN_HEIGHT = 16.0
-"""[mm]; F shows a third of its cell, whose height it does not give."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +44,20 @@ def field_run(case: Case, seed: int) -> FieldRun:
 
 
 @dataclass(frozen=True)
+class MeanFields:
+    """Fields averaged over seeds: shape (phases, rows, columns)."""
+
+    x: Numbers
+    """Centres of the columns [mm], one tooth."""
+    y: Numbers
+    """Centres of the rows [mm]."""
+    mass: Numbers
+    """Share of the mass of all disks."""
+    momentum: Numbers
+    """Over the mass of all disks [cm/s]; one more axis at the end: x, y."""
+
+
+@dataclass(frozen=True)
 class Fields:
     """Fields of several seeds: shape (seeds, phases, rows, columns)."""
 
@@ -68,16 +70,13 @@ class Fields:
     momentum: Numbers
     """Over the mass of all disks [cm/s]; one more axis at the end: x, y."""
 
+    def mean(self) -> MeanFields:
+        """Over the seeds."""
+        return MeanFields(self.x, self.y, self.mass.mean(axis=0), self.momentum.mean(axis=0))
+
     def total(self) -> list[Estimate]:
         """Mean horizontal velocity of all disks in each phase window [cm/s]."""
         return [Estimate.over_runs(self.momentum[:, j, :, :, 0].sum(axis=(1, 2))) for j in range(PHASES)]
-
-
-def observe(laboratory: Laboratory, case: Case, seeds: int, title: str) -> Fields:
-    """Fields of seeds 1 to `seeds`."""
-    runs = [field_run(case, seed) for seed in range(1, seeds + 1)]
-    tables = laboratory.run(runs, title)
-    return gather([tables[run] for run in runs])
 
 
 def gather(tables: Sequence[Table]) -> Fields:
@@ -121,47 +120,6 @@ def surface(case: Case, x: Numbers, lift: float = 0.0) -> Numbers:
 def lift_of(j: float) -> float:
     """Displacement of the base [mm] in the middle of window j."""
     return 1e3 * AMPLITUDE * math.sin(math.tau * (j + 0.5) / PHASES)
-
-
-def draw(case: Case, fields: Fields, windows: Sequence[int]) -> Figure:
-    """Momentum above, mass below, in three windows of the phase, as in F."""
-    figure = Figure(figsize=(WIDTH, 4.9), layout="constrained")
-    axes = figure.subplots(2, len(windows), sharex=True, sharey=True)
-    mass, momentum = fields.mass.mean(axis=0), case.disks * fields.momentum.mean(axis=0)
-    heaviest = float(mass[list(windows)].max())
-    for column, j in enumerate(windows):
-        arrows, disks = axes[0, column], axes[1, column]
-        for panel in (arrows, disks):
-            _teeth(panel, case, j)
-        x, y = np.meshgrid(fields.x, fields.y)
-        shown = (y < SHOWN_HEIGHT) & (mass[j] > 0.0)
-        for tooth in range(SHOWN_TEETH):
-            shifted = x[shown] + tooth * TOOTH
-            u, v = (ARROW * momentum[j, :, :, axis][shown] for axis in (0, 1))
-            style = {"scale_units": "xy", "scale": 1.0, "width": 0.004, "headwidth": 3.5, "color": INK}
-            arrows.quiver(shifted, y[shown], u, v, angles="xy", **style)
-            # Radii proportional to mass, the largest half a box.
-            radii = 0.5 * BOX * mass[j][shown] / heaviest
-            disks.add_collection(_circles(shifted, y[shown], radii))
-        arrows.set_title(f"({'abc'[column]}) j = {j}", pad=3.0)
-        disks.set_xlabel("x [mm]")
-    for row, name in enumerate(("momentum density", "mass density")):
-        axes[row, 0].set_ylabel(f"{name}\ny [mm]")
-    return figure
-
-
-def _circles(x: Numbers, y: Numbers, radii: Numbers) -> PatchCollection:
-    kept = radii > 0.02 * BOX
-    patches = [Circle((a, b), r) for a, b, r in zip(x[kept], y[kept], radii[kept], strict=True)]
-    return PatchCollection(patches, facecolors=INK, linewidths=0)
-
-
-def _teeth(panel: Axes, case: Case, j: int) -> None:
-    x = np.linspace(0.0, SHOWN_TEETH * TOOTH, 1200)
-    lift = lift_of(j)
-    panel.fill_between(x, surface(case, x, lift), -3.0, color="0.82", lw=0)
-    panel.plot(x, surface(case, x, lift), color="0.35", lw=0.7)
-    panel.set(xlim=(0.0, SHOWN_TEETH * TOOTH), ylim=(-3.0, SHOWN_HEIGHT), aspect="equal")
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ with the best c for each in closed form, and then polished by least squares. Int
 which draws the runs of every point anew and takes the grid's best.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -12,7 +13,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from jostle_lab.errors import LabError
-from jostle_lab.statistics.estimates import Numbers, bootstrap
+from jostle_lab.statistics.estimates import Estimate, Numbers, bootstrap
 
 RESAMPLES = 1000
 """Of the bootstrap."""
@@ -34,10 +35,18 @@ class Fitted:
         """Value, then the interval."""
         return f"{self.value:.2f} ({self.low:.2f} to {self.high:.2f})"
 
-    def within(self, other: float, error: float) -> bool:
-        """Whether another measurement with a standard error is compatible: two joint standard errors."""
-        own = 0.5 * (self.high - self.low)
-        return abs(self.value - other) <= 2.0 * float(np.hypot(own, error))
+    @property
+    def estimate(self) -> Estimate:
+        """Value, and half of the interval as its standard error."""
+        return Estimate(self.value, 0.5 * (self.high - self.low))
+
+
+def with_window(found: Fitted, others: Sequence[Fitted]) -> Estimate:
+    """A parameter with the standard error of chance and of the choice of the window.
+
+    The window is taken to be any of `others` by chance: its part is their standard deviation.
+    """
+    return Estimate(found.value, math.hypot(found.estimate.error, float(np.std([o.value for o in others], ddof=1))))
 
 
 @dataclass(frozen=True)

@@ -1,22 +1,20 @@
 """A figure of F as a study: which cases, how they are drawn, which statements they answer. And curves."""
 
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from scipy import stats
-from scipy.optimize import isotonic_regression
 
 from jostle_lab.plots.curves import draw_curve, shades, velocity_axes
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
-from jostle_lab.statements import Product, Statement, Verdict
+from jostle_lab.statements import Product, Statement
 from jostle_lab.statistics.estimates import Estimate, Numbers, bootstrap, zero_crossings
+from jostle_lab.verdicts import Judgement, Verdict, above, below, every
 from studies.ratchet.cases import Case, Plan, Point, Points, lean_on_each_other
-from studies.ratchet.observe import by_sweep
+from studies.ratchet.observe import Observed, observe_runs
 
 RESAMPLES = 1000
 """Of the bootstrap over runs."""
@@ -49,14 +47,18 @@ class Study:
     statements: Callable[[Points], list[Statement]]
     notes: Sequence[str]
     tables: Callable[[Points], list[Table]] = field(default=lambda _: [])
+    others: Callable[[Observed], list[Statement]] = field(default=lambda _: [])
+    """Statements on other outputs than the velocity."""
 
     def make(self, laboratory: Laboratory, quick: bool, seeds: int | None = None) -> Product:
         """Run what is missing; `seeds`, if given, for every point."""
         plan = {case: seeds or number for case, number in self.plan(quick).items()}
-        points = lean_on_each_other(by_sweep(laboratory, plan, f"figure {self.number}"))
+        observed = observe_runs(laboratory, plan, f"figure {self.number}")
+        points = lean_on_each_other(observed.points())
         tables = [table.markdown() for table in self.tables(points)]
         rows = [_row(case, point) for case, point in points.items()]
-        return Product(self.title, rows, self.draw(points), self.statements(points), self.notes, tables)
+        statements = [*self.statements(points), *self.others(observed)]
+        return Product(self.title, rows, self.draw(points), statements, self.notes, tables)
 
 
 def _row(case: Case, point: Point) -> dict[str, Any]:
@@ -99,20 +101,15 @@ class Curve:
         kept = [(x, p) for x, p in zip(self.x, self.points, strict=True) if low <= x <= high]
         return Curve(tuple(x for x, _ in kept), tuple(p for _, p in kept))
 
+    def moving(self) -> "Curve":
+        """The part whose points are not at rest."""
+        kept = [(x, p) for x, p in zip(self.x, self.points, strict=True) if not p.at_rest]
+        return Curve(tuple(x for x, _ in kept), tuple(p for _, p in kept))
+
     def crossings(self) -> list[Estimate]:
         """Sign changes for certain, points at rest left out."""
         moving = [(x, p.estimate) for x, p in zip(self.x, self.points, strict=True) if not p.at_rest]
         return zero_crossings([x for x, _ in moving], [e for _, e in moving])
-
-    def monotone(self, rising: bool) -> float:
-        """How well a monotone curve fits: p-value of chi^2 against the best one."""
-        means = [e.mean for e in self.estimates]
-        weights = [1.0 / max(e.error, 1e-6) ** 2 for e in self.estimates]
-        best = isotonic_regression(means, weights=weights, increasing=rising)
-        blocks = len(best.blocks) - 1
-        freedom = len(means) - blocks
-        total = float(np.sum(weights * (best.x - np.array(means)) ** 2))
-        return 1.0 if freedom == 0 else float(stats.chi2.sf(total, freedom))
 
     def extremum(self) -> Estimate:
         """Where a parabola through the points has its vertex; error by the bootstrap over runs."""
@@ -152,7 +149,7 @@ def plain(case: Case) -> bool:
 
 
 def panel_of_curves(
-    found: Mapping[float, Curve], label: Callable[[float], str], x_label: str, width: float = 0.72 * WIDTH
+    found: Mapping[float, Curve], label: Callable[[float], str], x_label: str, width: float = 0.86 * WIDTH
 ) -> Figure:
     """All curves in one panel, dark to light."""
     figure = Figure(figsize=(width, 3.7), layout="constrained")
@@ -169,13 +166,24 @@ def listed(pairs: Iterable[tuple[float, Estimate]]) -> str:
     return ", ".join(f"{x:g}: {e}" for x, e in pairs)
 
 
-def joint(estimate: Estimate, value: float, error: float) -> float:
-    """Difference from a printed value, in joint standard errors."""
-    return (estimate.mean - value) / math.hypot(estimate.error, error)
+def stated(place: str, printed: str, found: str, judgement: Judgement, cause: str = "") -> Statement:
+    """A statement with the verdict of a judgement; `cause` is told where that is not agreement."""
+    told = "" if judgement.verdict is Verdict.AGREES else cause
+    return Statement.judged(place, printed, found, judgement, told)
 
 
-def share(holds: Sequence[bool]) -> Verdict:
-    """Agreement if all hold, partly if some do."""
-    if all(holds):
-        return Verdict.AGREES
-    return Verdict.PARTLY if any(holds) else Verdict.DISAGREES
+def signed(estimates: Sequence[Estimate], sign: int) -> Judgement:
+    """Whether all of `estimates` have the sign 1 or -1."""
+    side, rule = (above, "above") if sign > 0 else (below, "below")
+    return every((side(e, 0.0) for e in estimates), f"every one {rule} 0 by two errors")
+
+
+def reverses(curve: Curve) -> Judgement:
+    """Whether a curve has exactly one sign change, and ends with the sign that it did not have before."""
+    crossings, moving = curve.crossings(), [p for p in curve.points if not p.at_rest]
+    rule = "exactly one sign change between points that are three errors from 0, and the last point is beyond it"
+    if len(crossings) == 1 and moving[-1].sign() != 0:
+        return Judgement(Verdict.AGREES, rule)
+    # Without a change for certain the errors may hide one near a point that is not of either sign.
+    undecided = not crossings and any(p.sign() == 0 for p in moving)
+    return Judgement(Verdict.OPEN if undecided else Verdict.DISAGREES, rule)

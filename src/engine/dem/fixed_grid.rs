@@ -9,6 +9,7 @@ use crate::engine::{Engine, WorkBudget};
 use crate::error::are_sane;
 use crate::geometry::Disk;
 
+use super::sampler::{Sampler, Unsampled};
 use super::setup::{Breakdown, SoftDiskSetup, SoftDisks};
 
 /// State at one point of the grid of time.
@@ -196,18 +197,68 @@ impl<S: Stepper, D: Drive> FixedGrid<S, D> {
 
     /// Observes at `time` \[s\]: takes one short step on a copy, unless `time` is a grid point.
     fn sample_at(&mut self, time: f64) -> Result<(), Breakdown> {
+        self.is_between = self.reach(time)?;
+        if self.is_between {
+            std::mem::swap(&mut self.between, &mut self.spare);
+        }
+        Ok(())
+    }
+
+    /// Whether `time` \[s\] is no grid point, so that the state at that time is the spare one, made by one short step.
+    fn reach(&mut self, time: f64) -> Result<bool, Breakdown> {
         let ahead = time - self.time();
         if ahead.abs() <= SNAP * self.setup().time_step {
             check::<S, D>(&self.state, time)?;
-            self.is_between = false;
-            return Ok(());
+            return Ok(false);
         }
         self.spare.clone_from(&self.state);
         self.stepper.step(&mut self.spare, ahead, time)?;
         check::<S, D>(&self.spare, time)?;
-        std::mem::swap(&mut self.between, &mut self.spare);
-        self.is_between = true;
-        Ok(())
+        Ok(true)
+    }
+
+    /// Steps from the start to the last grid point until `time` \[s\].
+    fn steps_until(&self, time: f64) -> f64 {
+        let elapsed = (time - self.setup().start_time) / self.setup().time_step;
+        (elapsed + SNAP).floor().max(0.0)
+    }
+
+    /// Advances to `end_time` \[s\] as [`Engine::advance_within`], to the bit, and shows the disks to `sampler` on the way.
+    ///
+    /// # Errors
+    /// As [`Engine::advance_within`]; what was shown then does not count.
+    pub fn advance_sampled(
+        &mut self,
+        end_time: f64,
+        budget: &mut WorkBudget,
+        sampler: &mut impl Sampler,
+    ) -> Result<(), Breakdown> {
+        let steps = (self.steps_until(end_time) - self.state.steps as f64).max(0.0) + sampler.samples_until(end_time);
+        let work_of_step = S::WORK_OF_STEP * self.radii().len() as f64;
+        if !budget.spend((steps * work_of_step) as u64) {
+            let (time, most) = (self.time(), budget.most() as f64 / work_of_step);
+            return Err(Breakdown::TooManySteps { time, steps, most });
+        }
+        self.backup.clone_from(&self.state);
+        let outcome = self.run_sampled(end_time, sampler);
+        if outcome.is_err() {
+            std::mem::swap(&mut self.state, &mut self.backup);
+        }
+        outcome
+    }
+
+    /// What the sampler sees is never the state that outputs show: that stays where it is if the step is refused.
+    fn run_sampled(&mut self, end_time: f64, sampler: &mut impl Sampler) -> Result<(), Breakdown> {
+        while sampler.due() <= end_time {
+            let time = sampler.due();
+            let target = self.steps_until(time) as u64;
+            self.stepper.run(&mut self.state, target)?;
+            let state = if self.reach(time)? { &self.spare } else { &self.state };
+            sampler.take(self.stepper.motion(&state.disks).0);
+        }
+        let target = self.steps_until(end_time) as u64;
+        self.stepper.run(&mut self.state, target)?;
+        self.sample_at(end_time)
     }
 }
 
@@ -243,21 +294,7 @@ impl<S: Stepper, D: Drive> Engine for FixedGrid<S, D> {
     type Stop = Breakdown;
 
     fn advance_within(&mut self, end_time: f64, budget: &mut WorkBudget) -> Result<(), Breakdown> {
-        let elapsed = (end_time - self.setup().start_time) / self.setup().time_step;
-        let target = (elapsed + SNAP).floor().max(0.0);
-        let steps = target - self.state.steps as f64;
-        let work_of_step = S::WORK_OF_STEP * self.radii().len() as f64;
-        if !budget.spend((steps.max(0.0) * work_of_step) as u64) {
-            let (time, most) = (self.time(), budget.most() as f64 / work_of_step);
-            return Err(Breakdown::TooManySteps { time, steps, most });
-        }
-        self.backup.clone_from(&self.state);
-        let outcome = self.stepper.run(&mut self.state, target as u64);
-        let outcome = outcome.and_then(|()| self.sample_at(end_time));
-        if outcome.is_err() {
-            std::mem::swap(&mut self.state, &mut self.backup);
-        }
-        outcome
+        self.advance_sampled(end_time, budget, &mut Unsampled)
     }
 
     fn copied_state(&self) -> Self::State {

@@ -14,6 +14,7 @@ pub mod event_located;
 mod fixed_grid;
 mod lanes;
 mod observables;
+mod sampler;
 mod setup;
 mod time_step_limits;
 pub mod verlet;
@@ -21,6 +22,7 @@ pub mod verlet;
 pub use crate::contact::ContactLaws;
 pub use fixed_grid::{FixedGrid, GridState, Stepper};
 pub use observables::{SoftDiskEnergies, SoftDiskObservables};
+pub use sampler::{Sampler, Unsampled};
 pub use setup::{Breakdown, SoftDiskSetup, SoftDisks};
 pub use time_step_limits::TimeStepLimits;
 

@@ -26,12 +26,17 @@ the same probability</li>
 <li>side walls: they stand still and rub on disks that the floor carries, or with <code>wall.motion</code> =
 <code>with_base</code> move up and down with the floor, as those of a box on a shaker do; <code>base.reaction_force</code>
 then holds their friction</li>
+<li>rotation: angles are sampled at <code>measure.start</code> and every <code>measure.interval</code> from then on.
+<code>disk.mean_angular_velocity</code>: whole excursion over its time; <code>disk.rotation_correlation</code>:
+&rho;<sup>2</sup> of angle and time; <code>disk.adjusted_deviation</code>: &sigma;<sub>a</sub> = &sigma; / (|&omega;| + &sigma;)
+with &omega; the mean angular velocity and &sigma; the standard deviation of those in the n intervals;
+<code>rotation.persistent_mean_square</code>: mean over the disks of &omega;<sup>2</sup> &minus; &sigma;<sup>2</sup> / (n &minus; 1)</li>
 </ul>
 <p>Velocity Verlet, with the damping at the velocity of the same instant; the time step is a hundredth of the shortest
 contact period unless <code>time_step</code> sets it. The trajectory lives on its own grid of time and does not depend
 on the communication points.</p>
 <p>Source: G. G. Peraza Mues, Spontaneous rotation in vibrated disk packings, doctoral thesis, Cinvestav M&eacute;rida,
-2018, chapters 2 and 4.</p>
+2018, chapters 2, 3.1 and 4.</p>
 ";
 
 /// HTML fragment of the hard packing.
@@ -52,7 +57,12 @@ velocity that a base of random phase has where it is first met, or with <code>ba
 <li>side walls: they stand still and rub on disks that the floor carries, or with <code>wall.motion</code> =
 <code>with_base</code> move up and down with the floor, as those of a box on a shaker do; <code>base.reaction_force</code>
 then holds their friction</li>
+<li>rotation: angles are sampled at <code>measure.start</code> and every <code>measure.interval</code> from then on.
+<code>disk.mean_angular_velocity</code>: whole excursion over its time; <code>disk.rotation_correlation</code>:
+&rho;<sup>2</sup> of angle and time; <code>disk.adjusted_deviation</code>: &sigma;<sub>a</sub> = &sigma; / (|&omega;| + &sigma;)
+with &omega; the mean angular velocity and &sigma; the standard deviation of those in the n intervals;
+<code>rotation.persistent_mean_square</code>: mean over the disks of &omega;<sup>2</sup> &minus; &sigma;<sup>2</sup> / (n &minus; 1)</li>
 </ul>
 <p>Source: G. G. Peraza Mues, Spontaneous rotation in vibrated disk packings, doctoral thesis, Cinvestav M&eacute;rida,
-2018, chapters 2.3 and 4.5.</p>
+2018, chapters 2.3, 3.1 and 4.5.</p>
 ";

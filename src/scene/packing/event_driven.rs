@@ -3,8 +3,8 @@
 //! Made for strong shaking, Gamma of 2 and more, where lasting contacts are rare (P 3.3).
 
 use crate::drive::{FollowsInput, Motion};
-use crate::engine::DiskMotion;
 use crate::engine::event_driven::{Counts, EventDrivenStop, Moving, Partner};
+use crate::engine::{DiskMotion, WorkBudget};
 use crate::error::are_sane;
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::{DisksOnBase, StepReport, Stretch, complete, radii};
@@ -19,6 +19,7 @@ use super::either_base::EitherBase;
 use super::equations;
 use super::hard::{HardDisks, HardEngine};
 use super::initial_packing::{self, NAME};
+use super::rotation::{MeasuresRotation, RotationRecord};
 use super::rows::{self, AtStart};
 use super::settled::{self, Settled};
 
@@ -41,6 +42,7 @@ pub struct HardPacking<E: HardEngine> {
     report: StepReport,
     /// Total energy at the start \[J\].
     start_energy: f64,
+    rotation: RotationRecord,
     /// What is doubtful about the start.
     warnings: Vec<Warning>,
 }
@@ -56,17 +58,35 @@ impl<E: HardEngine> HardPacking<E> {
         self.engine.copy_state_to(&mut self.backup);
         let (from, impulse) = (self.report.time, self.counts().base_impulse);
         self.engine.set_target(from, end_time - from, values);
-        let outcome = self
-            .engine
-            .advance_within(end_time, &mut self.work_limit.budget(self.engine.work_done(), end_time));
+        self.rotation.back_up(end_time);
+        let mut budget = self.work_limit.budget(self.engine.work_done(), end_time);
+        let outcome = self.run_to(end_time, &mut budget);
         let outcome = outcome.map_err(refused_step).and_then(|()| self.check(NAME, end_time));
         if let Err(error) = outcome {
+            self.rotation.go_back();
             self.engine.restore(&self.backup, from).map_err(refused_step)?;
             return Err(error);
         }
         let given = self.counts().base_impulse - impulse;
         self.report = self.report.after(stretch, end_time, -given);
         Ok(())
+    }
+
+    /// Handles the events until `end_time` \[s\] and takes the angles where they are due.
+    fn run_to(&mut self, end_time: f64, budget: &mut WorkBudget) -> std::result::Result<(), EventDrivenStop> {
+        // A sample of ten disks takes about as long as an event.
+        let work_of_sample = self.radii.len().div_ceil(10) as u64;
+        while self.rotation.now.due() <= end_time {
+            let time = self.rotation.now.due();
+            self.engine.advance_within(time, budget)?;
+            if !budget.spend(work_of_sample) {
+                let most = budget.most();
+                return Err(EventDrivenStop::TooManyEvents { time, most });
+            }
+            let angles = (0..self.radii.len()).map(|disk| self.engine.disk_at(time, disk).angle);
+            self.rotation.now.record(angles);
+        }
+        self.engine.advance_within(end_time, budget)
     }
 }
 
@@ -140,6 +160,12 @@ fn refused_step(stop: EventDrivenStop) -> Error {
     hard_disks::refused_step(NAME, stop, partner, remedy, crowded)
 }
 
+impl<E: HardEngine> MeasuresRotation for HardPacking<E> {
+    fn rotation(&self) -> &RotationRecord {
+        &self.rotation
+    }
+}
+
 impl<E: HardEngine> Model for HardPacking<E> {
     type State = PackingState<E::State>;
 
@@ -210,6 +236,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
             warnings,
             report: StepReport::at_start(start_time),
             start_energy: 0.0,
+            rotation: RotationRecord::new(disks.len(), start_time, values),
         };
         packing.start_energy = packing.energies().total();
         Ok(packing)
@@ -242,6 +269,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
             engine: self.engine.copied_state(),
             report: self.report,
             start_energy: self.start_energy,
+            rotation: self.rotation.now.clone(),
         }
     }
 
@@ -253,7 +281,8 @@ impl<E: HardEngine> Model for HardPacking<E> {
         let time = state.report.time;
         let remedy = "Restore states of the same scene, disk count and parameters only.";
         let report_holds = state.report.is_sane() && are_sane([state.start_energy]);
-        if !(self.engine.fits(&state.engine, time) && report_holds) {
+        let rotation_holds = state.rotation.continues(&self.rotation.now, time);
+        if !(self.engine.fits(&state.engine, time) && report_holds && rotation_holds) {
             return Err(Error::state("it is not a state of this run", remedy));
         }
         let former = self.engine.copied_state();
@@ -263,6 +292,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
             return Err(Error::state("it holds numbers that no packing has", remedy));
         }
         (self.report, self.start_energy) = (state.report, state.start_energy);
+        self.rotation.now.clone_from(&state.rotation);
         Ok(())
     }
 }

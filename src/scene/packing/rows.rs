@@ -9,6 +9,8 @@ use crate::scene::disks_on_base::{
 use crate::scene::info::GRAVITY;
 use crate::scene::{Row, Unit, work_limit};
 
+use super::rotation::{self, MeasuresRotation};
+
 /// Names of the three radii that share the disks equally.
 pub const RADII: [&str; 3] = ["disk.radius_small", "disk.radius_medium", "disk.radius_large"];
 
@@ -86,7 +88,7 @@ impl AtStart {
 }
 
 /// Means over the disks and motion of the base, which come before the energies.
-pub fn means_and_base<M: DisksOnBase>(at_start: &AtStart) -> Vec<Row<M>> {
+pub fn means_and_base<M: DisksOnBase + MeasuresRotation>(at_start: &AtStart) -> Vec<Row<M>> {
     let base = BaseRows {
         force: 1.0,
         bodies: "disks on the base, and on side walls that move with it",
@@ -99,12 +101,13 @@ pub fn means_and_base<M: DisksOnBase>(at_start: &AtStart) -> Vec<Row<M>> {
         mean_velocity(0.1, "Mean horizontal velocity of the disks now"),
         mean_angular_velocity(1.0, "Mean angular velocity of the disks now, counter-clockwise"),
     ];
+    rows.extend(rotation::of_all());
     rows.extend(base.rows());
     rows
 }
 
 /// Motion of each disk, which comes last.
-pub fn each_disk<M: DisksOnBase>(disks: u32, at_start: &AtStart) -> Vec<Row<M>> {
+pub fn each_disk<M: DisksOnBase + MeasuresRotation + 'static>(disks: u32, at_start: &AtStart) -> Vec<Row<M>> {
     let angle = "Angle turned, counter-clockwise and unwrapped, of disk {}";
     let rate = "Angular velocity, counter-clockwise, of disk {}";
     let across = "Distance of the centre to the right of the middle of the box of disk {}";
@@ -112,6 +115,7 @@ pub fn each_disk<M: DisksOnBase>(disks: u32, at_start: &AtStart) -> Vec<Row<M>> 
     rotations(disks, angle, 1.0, rate)
         .chain(horizontal_positions(disks, 0.1, across).map(|row| row.depending_on(&at_start.places)))
         .chain(heights(disks, 0.1, up).map(|row| row.depending_on(&at_start.heights)))
+        .chain(rotation::of_each(disks))
         .collect()
 }
 
@@ -129,7 +133,7 @@ pub fn parameters<M>() -> Vec<Row<M>> {
         let description = format!("Radius of the {which} third of the disks");
         Row::parameter(name, Unit::METRE, 1e-6..=1e3, start, &description)
     };
-    vec![
+    let mut rows = vec![
         Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 0.0..=1e4, 9.8, GRAVITY),
         Row::long_parameter(
             "seed",
@@ -199,7 +203,9 @@ pub fn parameters<M>() -> Vec<Row<M>> {
             "Friction coefficient mu of every contact",
         ),
         work_limit::row(),
-    ]
+    ];
+    rows.extend(rotation::parameters());
+    rows
 }
 
 /// Parameter that sets the time step, or leaves it to the engine.

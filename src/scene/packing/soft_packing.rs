@@ -14,6 +14,7 @@ use crate::scene::{
 };
 
 use super::initial_packing::{self, NAME};
+use super::rotation::{MeasuresRotation, RotationRecord};
 use super::rows::{self, AtStart};
 use super::settled::{self, Settled};
 use super::{PackingState, equations, soft::SoftMethod};
@@ -36,6 +37,7 @@ pub struct SoftPacking<S: SoftMethod, D> {
     report: StepReport,
     /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
     start_energy: f64,
+    rotation: RotationRecord,
     /// What is doubtful about the start.
     warnings: Vec<Warning>,
 }
@@ -75,6 +77,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
             warnings,
             report: StepReport::at_start(start_time),
             start_energy: 0.0,
+            rotation: RotationRecord::new(disks.len(), start_time, values),
         };
         packing.start_energy = packing.energy();
         Ok(packing)
@@ -108,13 +111,16 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         // Other drives change only in the steps of the engine, which brings them back itself.
         let steered = D::STEERED.then(|| self.engine.drive_mut().clone());
         self.engine.drive_mut().set_target(from, duration, values);
-        if let Err(breakdown) = self
+        self.rotation.back_up(end_time);
+        let mut budget = self.work_limit.budget(0, end_time);
+        let outcome = self
             .engine
-            .advance_within(end_time, &mut self.work_limit.budget(0, end_time))
-        {
+            .advance_sampled(end_time, &mut budget, &mut self.rotation.now);
+        if let Err(breakdown) = outcome {
             if let Some(drive) = steered {
                 *self.engine.drive_mut() = drive;
             }
+            self.rotation.go_back();
             return Err(refused_step(NAME, breakdown));
         }
         self.report = self.report.after(stretch, end_time, impulse - self.impulse_of_base());
@@ -152,7 +158,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         ]
     }
 
-    /// The force that is no mean over a step: zero at the start unless disks overlap.
+    /// The force that is no mean over a step: zero at the start unless disks overlap, which the damping then feels too.
     fn force_now(at_start: &AtStart) -> Row<Self> {
         let description =
             "Vertical force of the disks on the base now, up; base.reaction_force is its mean over the last step";
@@ -165,7 +171,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         );
         force
             .in_terminal(TERMINAL, "reaction_force_now")
-            .depending_on(&at_start.touching)
+            .depending_on(&names(&[&at_start.touching, &at_start.base_velocity]))
     }
 
     /// Energies, and the closed contacts. Whether disks touch at the start, and how much energy that is, is a matter of
@@ -238,6 +244,12 @@ impl<S: SoftMethod, D: BaseDrive> DisksOnBase for SoftPacking<S, D> {
 
     fn base_impulse(&self) -> f64 {
         -self.impulse_of_base()
+    }
+}
+
+impl<S: SoftMethod, D> MeasuresRotation for SoftPacking<S, D> {
+    fn rotation(&self) -> &RotationRecord {
+        &self.rotation
     }
 }
 
@@ -320,6 +332,7 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
             engine: self.engine.state().clone(),
             report: self.report,
             start_energy: self.start_energy,
+            rotation: self.rotation.now.clone(),
         }
     }
 
@@ -329,12 +342,11 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
         let report_holds = state.report.is_sane() && are_sane([state.start_energy]);
-        let drive_holds = self
-            .engine
-            .state()
-            .drive
-            .continues(&state.engine.drive, state.report.time);
-        if !(report_holds && drive_holds && self.engine.fits(&state.engine, state.report.time)) {
+        let rotation_holds = state.rotation.continues(&self.rotation.now, state.report.time);
+        let drive = &self.engine.state().drive;
+        let drive_holds = drive.continues(&state.engine.drive, state.report.time);
+        let fits = report_holds && rotation_holds && drive_holds;
+        if !(fits && self.engine.fits(&state.engine, state.report.time)) {
             return Err(Error::state(
                 "it has other numbers of disks or contacts, or numbers that no packing has",
                 "Restore states of the same scene, disk count and parameters only.",
@@ -344,6 +356,7 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
             .restore(&state.engine, state.report.time)
             .map_err(|breakdown| refused_step(NAME, breakdown))?;
         (self.report, self.start_energy) = (state.report, state.start_energy);
+        self.rotation.now.clone_from(&state.rotation);
         Ok(())
     }
 }

@@ -149,7 +149,7 @@ def test_the_torque_demo_asks_for_both_versions_of_fmi(tmp_path: Path) -> None:
     ("package", "command", "what"),
     [
         ("jostle_lab", "ratchet-demo", "Hold Gamma of a shaken ratchet by feedback"),
-        ("studies", "ratchet-page", "Write docs/generated/ratchet.md"),
+        ("studies", "figure", "Compute figures of the papers anew"),
         ("tools", "import-circles", "Look for Rust files that import each other"),
     ],
 )
@@ -168,7 +168,11 @@ finally:
 
 
 def test_a_command_that_is_imported_late_has_its_options() -> None:
-    for words, option in ((["tools", "notices"], "--command-line"), (["studies", "ratchet-page"], "--compute")):
+    for words, option in (
+        (["tools", "notices"], "--command-line"),
+        (["studies", "figure"], "--quick"),
+        (["jostle_lab", "claims"], "--compute"),
+    ):
         done = run(*words, "--help")
         assert option in done.stdout, done.stderr
     assert run("tools", "notcies").returncode == 2

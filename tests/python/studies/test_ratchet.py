@@ -1,4 +1,4 @@
-"""The ratchet's paper: the fit of an onset, curves, kept data, the generated page, one figure, the fields."""
+"""F: the fit of an onset, curves, kept records, one figure, the fields."""
 
 import math
 from pathlib import Path
@@ -8,13 +8,18 @@ import pytest
 
 from jostle_lab.errors import LabError
 from jostle_lab.runs.laboratory import Laboratory
+from jostle_lab.runs.records import Records
+from jostle_lab.statistics.estimates import Estimate
+from jostle_lab.verdicts import Verdict
+from studies.claims.sections import record_file, section
 from studies.examples import GENERATED
-from studies.figures import STUDIES, make_figure, maker
-from studies.ratchet import fields, frequency, page, quoted, shape
+from studies.figures import make_figure
+from studies.ratchet import fields, quoted, shape
 from studies.ratchet.cases import Case, Point, frequency_of, gamma_of
-from studies.ratchet.observe import chosen, read_points, write_points
+from studies.ratchet.observe import observe_runs
 from studies.ratchet.onset import fit_onset
-from studies.ratchet.study import Curve, curves
+from studies.ratchet.study import Curve, curves, reverses, signed
+from studies.registry import STUDIES, maker
 
 GAMMAS = (1.0, 1.1, 1.2, 1.25, 1.3, 1.35, 1.4, 1.5, 1.6, 1.8, 2.0, 2.4, 2.8, 3.2, 4.0)
 
@@ -58,11 +63,18 @@ def curve(means: list[float], noise: float = 0.05) -> Curve:
     return Curve(tuple(float(i) for i in range(len(means))), points)
 
 
-def test_monotone_curves_are_distinguished_from_others() -> None:
-    rising = curve([0.0, 0.1, 0.2, 0.2, 0.5, 0.9])
-    assert rising.monotone(rising=True) > 0.01
-    assert rising.monotone(rising=False) < 1e-6
-    assert curve([1.0, 0.5, 0.1, 0.5, 1.0]).monotone(rising=False) < 1e-6
+def test_a_reversal_needs_one_sign_change_and_a_last_sign() -> None:
+    assert reverses(curve([1.0, 0.5, -0.5, -1.0])).verdict is Verdict.AGREES
+    assert reverses(curve([1.0, 0.8, 0.6, 0.4])).verdict is Verdict.DISAGREES
+    assert reverses(curve([1.0, -1.0, 1.0, 2.0])).verdict is Verdict.DISAGREES
+    assert reverses(curve([1.0, 0.5, 0.2, 0.0], noise=0.3)).verdict is Verdict.OPEN
+
+
+def test_signs_of_all_points_are_judged_with_their_errors() -> None:
+    assert signed([Estimate(1.0, 0.1), Estimate(0.3, 0.1)], 1).verdict is Verdict.AGREES
+    assert signed([Estimate(1.0, 0.1), Estimate(0.1, 0.1)], 1).verdict is Verdict.OPEN
+    assert signed([Estimate(-1.0, 0.1), Estimate(0.5, 0.1)], -1).verdict is Verdict.PARTLY
+    assert signed([Estimate(1.0, 0.1), Estimate(0.5, 0.1)], -1).verdict is Verdict.DISAGREES
 
 
 def test_extremum_is_the_vertex_of_a_parabola() -> None:
@@ -87,34 +99,30 @@ def test_a_case_knows_its_layers_and_names_all_it_changes() -> None:
     assert words[words.index("--disks") + 1] == "20"
 
 
-def test_points_are_kept_as_they_are_and_missing_ones_are_reported(tmp_path: Path) -> None:
-    first, second = Case(3.0, 0.1, 25.0, 20), Case(6.0, 0.25, frequency_of(1.31), 50).with_changes(drive__phase=1.5)
-    points = {first: Point((4.123, -0.5, 0.0)), second: Point((1.0, 2.0))}
-    write_points(tmp_path / "points.csv", points)
-    again = read_points(tmp_path / "points.csv")
-    assert again == points
-    assert chosen(again, {first: 2})[first].velocities == (4.123, -0.5)
-    with pytest.raises(LabError, match="ratchet-page"):
-        chosen(again, {first: 4, Case(3.0, 0.1, 26.0, 20): 1})
-
-
-def test_page_is_what_the_kept_data_say() -> None:
-    """The page is generated: `python -m studies ratchet-page`."""
-    docs = GENERATED
-    made = page.page(read_points(docs / page.POINTS), page.read_flow(docs / page.FLOW))
-    assert made == (docs / page.PAGE).read_text(), "the page differs: run python -m studies ratchet-page"
-    assert (docs / page.POINTS).stat().st_size < 100_000
-
-
 def test_kept_velocities_are_those_of_the_program(laboratory: Laboratory) -> None:
     """Fresh runs of other seeds against the kept ones: the same means within five joint standard errors."""
-    kept = read_points(GENERATED / page.POINTS)
-    for case, runs in ((quoted.POSITIVE, 10), (quoted.NEGATIVE, 10), (frequency.case(25.0, 30), 6)):
+    for figure, case, runs in (("F13", quoted.POSITIVE, 10), ("F14", quoted.NEGATIVE, 10)):
+        records = Records(record_file(GENERATED, figure))
+        found = [records.find(case.run(seed).key(), None) for seed in range(1, 31)]
+        kept = Point(tuple(100.0 * record.table["transport_velocity"][-1] for record in found if record is not None))
+        assert kept.runs == 30
         fresh = [case.run(1000 + seed) for seed in range(runs)]
         tables = laboratory.run(fresh, "fresh")
         mean = 100.0 * float(np.mean([tables[run]["transport_velocity"][-1] for run in fresh]))
-        scatter = max(kept[case].scatter, 0.3)
-        assert abs(mean - kept[case].estimate.mean) < 5.0 * scatter * math.sqrt(1.0 / runs + 1.0 / kept[case].runs)
+        assert abs(mean - kept.estimate.mean) < 5.0 * kept.scatter * math.sqrt(1.0 / runs + 1.0 / kept.runs)
+
+
+@pytest.mark.parametrize("figure", STUDIES)
+def test_every_figure_is_evaluated_from_its_record_alone(figure: str, jostle: Path, tmp_path: Path) -> None:
+    """All planned runs are kept, every statement has a rule, and what does not agree has a cause."""
+    laboratory = Laboratory(jostle, tmp_path, show_progress=False)
+    found, product = section(figure, laboratory, GENERATED, compute=False)
+    assert found.statements
+    for statement in found.statements:
+        assert statement.rule, statement
+        assert statement.cause or statement.verdict is Verdict.AGREES, statement
+    assert record_file(GENERATED, figure).stat().st_size < 100_000
+    assert product.picture.axes
 
 
 def test_every_study_has_a_maker() -> None:
@@ -126,7 +134,7 @@ def test_small_figure_from_end_to_end(laboratory: Laboratory, tmp_path: Path, mo
     monkeypatch.setattr(shape, "ASYMMETRIES", (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5))
     monkeypatch.setattr(shape, "tooth", lambda h, a: Case(h, a, 25.0, 69, 24, 6.0))
     folder = tmp_path / "results"
-    data, picture, statements = make_figure("F6", laboratory, folder, quick=True, seeds=3)
+    data, picture, _, statements = make_figure("F6", laboratory, folder, quick=True, seeds=3)
     assert len(data.read_text().splitlines()) == 1 + 3 * 5
     assert picture.stat().st_size > 10_000
     assert "IV A, Fig. 6" in statements.read_text()
@@ -155,11 +163,10 @@ def test_surface_is_that_of_a_tooth_with_a_round_tip() -> None:
 def test_fields_hold_all_mass_and_the_transport(laboratory: Laboratory) -> None:
     """In every window the whole mass; momenta averaged over the period are the transport velocity of the same run."""
     case = Case(3.0, 0.1, 25.0, 20, seconds=5.0)
-    found = fields.observe(laboratory, case, 2, "fields")
+    runs = [fields.field_run(case, seed) for seed in (1, 2)]
+    found = fields.gather(laboratory.unrecorded(runs, "fields")[0])
     np.testing.assert_allclose(found.mass.sum(axis=(2, 3)), 1.0, rtol=1e-9)
-    runs = [case.run(seed) for seed in (1, 2)]
-    tables = laboratory.run(runs, "the same")
-    whole = [100.0 * float(tables[run]["transport_velocity"][-1]) for run in runs]
+    whole = 100.0 * observe_runs(laboratory, {case: 2}, "the same").values(case, "transport_velocity")
     np.testing.assert_allclose(found.momentum[..., 0].sum(axis=(2, 3)).mean(axis=1), whole, rtol=1e-6)
 
 

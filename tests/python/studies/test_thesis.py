@@ -20,8 +20,7 @@ from jostle_lab.statistics.estimates import (
     zero_crossings,
 )
 from jostle_lab.tables import parse_csv
-from studies.figures import MODULES, maker
-from studies.thesis.packing.runs import MOVING, RANDOM_PHASE, Record, mean_square, packing_run, persistent_square
+from studies.registry import MODULES, maker
 from studies.thesis.wedge import collapse as wedge_collapse
 from studies.thesis.wedge import curves as wedge
 from studies.thesis.wedge.curves import Effort, Wedge, curves
@@ -77,34 +76,13 @@ def test_crossing_is_where_the_line_is_zero_and_noise_crosses_nothing() -> None:
     assert zero_crossings(x, [Estimate((-1.0) ** v * 0.01, 0.01) for v in x]) == []
 
 
-def test_lasting_rotation_is_distinguished_from_a_random_walk() -> None:
-    generator = np.random.default_rng(6)
-    rate = math.tau / 60.0
-    steady = np.outer(np.arange(101.0), np.full(4000, 3.0 * rate))
-    walk = np.cumsum(generator.normal(0.0, 10.0 * rate, (101, 4000)), axis=0)
-    assert persistent_square(steady, 1.0) == pytest.approx(9.0)
-    assert mean_square(walk, 1.0) == pytest.approx(1.0, rel=0.1)
-    assert persistent_square(walk, 1.0) == pytest.approx(0.0, abs=0.1)
-
-
-def test_arguments_name_engine_drive_and_every_parameter() -> None:
-    record = Record(1.0, 2.0, 0.5)
-    words = packing_run(RANDOM_PHASE, 2.0, 1e4, 7, record).arguments()
-    assert words[:6] == ["run", "packing", "--engine", "event-driven", "--drive", "sine"]
-    assert "base.model=1" in words
-    assert "seed=7" in words
-    amplitude = next(word for word in words if word.startswith("drive.amplitude="))
-    assert float(amplitude.split("=")[1]) == pytest.approx(7.757e-5, rel=1e-3)
-    assert "base.model=2" in packing_run(MOVING, 2.0, 1e4, 7, record).arguments()
-
-
 def test_statements_page_keeps_bars_in_their_cells(tmp_path: Path) -> None:
     figure = maker("6.4").__globals__["Figure"]()
     statement = Statement("1.1", "|x| small", "|x| = 0.1 +- 0.2", Verdict.AGREES)
     product = Product("Title", [{"x": 1.0}], figure, [statement], ["a note"])
-    _, _, page = write(product, tmp_path / "figure", "command", "footer")
+    *_, page = write(product, tmp_path / "figure", "command", "footer")
     row = next(line for line in page.read_text().splitlines() if line.startswith("| 1.1"))
-    assert row == r"| 1.1 | \|x\| small | \|x\| = 0.1 +- 0.2 | agrees |"
+    assert row == r"| 1.1 | \|x\| small | \|x\| = 0.1 +- 0.2 | agrees |  |"
 
 
 def test_every_figure_has_a_maker() -> None:
@@ -116,7 +94,7 @@ def test_runs_are_kept_and_not_done_twice(laboratory: Laboratory, monkeypatch: p
     first = laboratory.run([run, run], "first")[run]
     assert len(list(laboratory.kept.rglob("output.pkl"))) == 1
     again = Laboratory(laboratory.program, laboratory.kept, show_progress=False)
-    monkeypatch.setattr(subprocess, "run", None)  # a run of the program would fail
+    monkeypatch.setattr(subprocess, "Popen", None)  # a run of the program would fail
     second = again.run([run], "again")[run]
     assert float(second["scaled_angular_velocity"][-1]) == float(first["scaled_angular_velocity"][-1])
     assert again.spent == laboratory.spent
@@ -142,9 +120,10 @@ def test_small_figure_from_end_to_end(laboratory: Laboratory, tmp_path: Path, mo
     monkeypatch.setattr(wedge, "QUICK", Effort(1e5, 2))
     monkeypatch.setattr(wedge_collapse, "QUICK_TILTS", (0.0, 8.0, 20.0))
     product = wedge_collapse.make(laboratory, True)
-    data, picture, page = write(product, tmp_path / "figure-6.4", "command", "footer")
+    data, picture, _, page = write(product, tmp_path / "figure-6.4", "command", "footer")
     rows = [row for row in data.read_text().splitlines()[1:] if row]
     assert len(rows) == 9 * 3
     assert picture.stat().st_size > 10_000
     assert "| agrees |" in page.read_text()
-    assert all(s.verdict is Verdict.AGREES for s in product.statements), product.statements
+    # So short a run leaves some open.
+    assert not {s.verdict for s in product.statements} & {Verdict.DISAGREES, Verdict.PARTLY}, product.statements

@@ -59,6 +59,9 @@ def demo(
     sensor_resolution: Annotated[
         float, typer.Option(min=0.0, max=1.0, help="[g]; the thesis says 0.01, the part offers 0.0039 or 0.031.")
     ] = 0.01,
+    pictures: Annotated[
+        bool, typer.Option("--pictures", help="Also draw what a webcam sees, and find and follow the marks in it.")
+    ] = False,
     parameters: options.SetOption = None,
     progress: options.ProgressOption = True,
 ) -> None:
@@ -68,13 +71,25 @@ def demo(
     from jostle_lab.fmu.packing import FmuFactory
     from jostle_lab.protocol.experiment import Setup
     from jostle_lab.protocol.packings import Plan, run
+    from jostle_lab.protocol.pictures import Processing, process
+    from jostle_lab.protocol.results import Results
     from jostle_lab.sensors.accelerometer import Accelerometer
+    from jostle_lab.sensors.markings import require_scikit_image
 
     chosen = options.parameters(parameters, seed="--first-seed")
     path = locate.fmu("packing.fmu", "packing", fmu)
     schedule = intervals.thesis() if full else intervals.scaled_down(_amplitudes(amplitudes), seconds_per_amplitude)
     accelerometer = Accelerometer(bandwidth=sensor_bandwidth, resolution=sensor_resolution)
-    setup = Setup(schedule, steps_per_second, exchange, full_drive_gamma=full_drive_gamma, accelerometer=accelerometer)
+    setup = Setup(
+        schedule,
+        steps_per_second,
+        exchange,
+        full_drive_gamma=full_drive_gamma,
+        accelerometer=accelerometer,
+        keep_positions=pictures,
+    )
+    if pictures:
+        require_scikit_image()
     seeds = _seeds(first_seed, packings if packings is not None else (25 if full else 2))
     factory = FmuFactory(str(path), chosen)
     # A wrong file or parameter is reported here, before any process starts.
@@ -84,6 +99,8 @@ def demo(
     plan = Plan(results, seeds, setup, processes, progress, labels)
     (results / FIRST_PICTURE).unlink(missing_ok=True)
     run(plan, factory, lambda: _draw_first(results))
+    if pictures:
+        process(Results(results), Processing())
     draw(results)
 
 

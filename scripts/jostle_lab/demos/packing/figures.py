@@ -12,10 +12,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
+from jostle_lab.demos.packing.power_laws import regression_of, slope_text
 from jostle_lab.plots.style import SENSE, WIDTH, house_style, save
 from jostle_lab.protocol.results import Results
 from jostle_lab.sensors.spectral_amplitude import spectral_amplitude
-from jostle_lab.statistics.rotation import RPM, nearest_neighbours_regression
+from jostle_lab.statistics.regression import THESIS_SLOPES, Regression, within
+from jostle_lab.statistics.rotation import RPM
 
 GAMMA_DRAWN = 2.0
 """Of the picture of a packing, as near as there is one."""
@@ -157,41 +159,34 @@ def accelerometer_spectrum(results: Results) -> Figure:
 
 
 def rotation_against_gamma(results: Results) -> Figure:
-    """<omega^2>, rho^2 and sigma_a against the true Gamma and the Gamma that the accelerometers give."""
+    """<omega^2>, rho^2 and sigma_a as measured, as in P Fig. 3.2 and 3.3, and in truth."""
     column = {series.name: series.to_numpy() for series in results.amplitudes.sort("gamma_true")}
-    figure = Figure(figsize=(WIDTH, 3.2), layout="constrained")
+    figure = Figure(figsize=(WIDTH, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2)
-    positive = column["mean_square_rpm"] > 0.0
+    measured, true = regression_of(results, measured=True), regression_of(results, measured=False)
     dark, light = "0.1", "#d07a1f"
-    left.loglog(
-        column["gamma_true"][positive], column["mean_square_rpm"][positive], "o", color=dark, ms=3, label="truth"
-    )
-    left.loglog(
-        column["gamma_measured"],
-        column["mean_square_rpm_camera"],
-        "s",
-        color=light,
-        ms=5.5,
-        mfc="none",
-        label="accelerometers and camera",
-    )
-    if len(results.seeds) >= 10:
-        at = np.geomspace(column["gamma_true"][0], column["gamma_true"][-1], 200)
-        smooth = nearest_neighbours_regression(column["gamma_true"], column["mean_square_rpm"], len(results.seeds), at)
-        left.loglog(at, smooth, "-", color=dark, linewidth=0.8, label=f"{len(results.seeds)} nearest neighbours")
-    _guide_lines(left, column["gamma_true"], column["mean_square_rpm"])
+    for curve, marker, colour, line, name in ((true, "o", dark, ":", "truth"), (measured, "s", light, "-", "measured")):
+        positive = curve.values > 0.0
+        gamma, square = curve.gamma[positive], curve.values[positive]
+        left.loglog(gamma, square, marker, color=colour, ms=4, mfc="none", mew=0.7, label=name)
+        if curve.neighbours > 1:
+            left.errorbar(
+                curve.at, curve.curve, curve.error, ls=line, color=colour, lw=0.8, elinewidth=0.7, capsize=1.5
+            )
+    _power_laws(left, measured)
     left.set(xlabel=r"$\Gamma$", ylabel=r"$\langle\omega^2\rangle$ [RPM$^2$]")
     _plain_ticks(left, column["gamma_true"])
-    left.legend(loc="lower right")
-    right.plot(column["gamma_true"], column["correlation"], "o", color=dark, ms=4, label=r"$\langle\rho^2\rangle$")
-    right.plot(
-        column["gamma_true"], column["adjusted_deviation"], "o", color="0.6", ms=4, label=r"$\langle\sigma_a\rangle$"
-    )
+    left.legend(loc="lower right", fontsize=7)
+    for name, symbol, colour in (("correlation", r"\rho^2", dark), ("adjusted_deviation", r"\sigma_a", "0.55")):
+        x, y = column["gamma_measured"], column[f"{name}_camera"]
+        right.plot(x, y, "s", color=colour, ms=4, label=rf"$\langle{symbol}\rangle$ measured")
+        x, y = column["gamma_true"], column[name]
+        right.plot(x, y, "o", color=colour, ms=5.5, mfc="none", mew=0.7, label=rf"$\langle{symbol}\rangle$ truth")
     middle = right.get_yaxis_transform()
     right.axhline(0.43, color="0.1", linewidth=0.6, linestyle=":")
     right.text(0.42, 0.435, r"driftless walk, $\rho^2$", ha="center", va="bottom", fontsize=7, transform=middle)
     right.set(xlabel=r"$\Gamma$", ylabel="steadiness of the paths", ylim=(-0.02, 1.05), xlim=(0.0, None))
-    right.legend(loc="center right", bbox_to_anchor=(1.0, 0.68))
+    right.legend(loc="center right", bbox_to_anchor=(1.0, 0.68), fontsize=7)
     return figure
 
 
@@ -202,22 +197,21 @@ def _plain_ticks(axes: Any, gamma: NDArray[np.float64]) -> None:
     axes.minorticks_off()
 
 
-def _guide_lines(axes: Any, gamma: NDArray[np.float64], mean_square: NDArray[np.float64]) -> None:
-    """Slopes of P Fig. 3.2, 3.94 below Gamma 1 and 1.00 above 1.6, laid through the middle of the points there."""
-    for low, high, slope, style in ((0.0, 1.0, 3.94, "--"), (1.6, 4.5, 1.0, "-.")):
-        inside = (gamma >= low) & (gamma <= high) & (mean_square > 0.0)
+def _power_laws(axes: Any, curve: Regression) -> None:
+    """Our power laws of what was measured, and P's slopes of Fig. 3.2 through the middle of the same points."""
+    for range_, slope, style in zip(THESIS_SLOPES, THESIS_SLOPES.values(), ("--", "-."), strict=True):
+        inside = within(curve.at, range_) & (curve.curve > 0.0)
         if np.count_nonzero(inside) < 2:
             continue
-        x, y = np.log(gamma[inside]), np.log(mean_square[inside])
+        x, y = np.log(curve.at[inside]), np.log(curve.curve[inside])
         ends = np.array([x.min() - 0.1, x.max() + 0.1])
-        axes.loglog(
-            np.exp(ends),
-            np.exp(y.mean() + slope * (ends - x.mean())),
-            style,
-            color="0.5",
-            lw=0.8,
-            label=f"slope {slope:.2f} (thesis)",
-        )
+        ours = curve.slope(range_)
+        for exponent, colour, name in (
+            (ours.mean, "#c0272d", f"slope {slope_text(ours)} (measured)"),
+            (slope, "0.5", f"slope {slope:.2f} (thesis)"),
+        ):
+            line = np.exp(y.mean() + exponent * (ends - x.mean()))
+            axes.loglog(np.exp(ends), line, style, color=colour, lw=0.9, label=name)
 
 
 PICTURES: dict[str, Callable[[Results], Figure]] = {

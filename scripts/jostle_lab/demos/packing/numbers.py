@@ -5,10 +5,12 @@ from typing import Any
 
 import polars as pl
 
+from jostle_lab.demos.packing.power_laws import power_law_table
+from jostle_lab.protocol.pictures import TABLE
 from jostle_lab.protocol.results import Results
 from jostle_lab.sensors.camera import Camera
 from jostle_lab.statistics.rotation import RPM
-from jostle_lab.tables import Row, markdown_table
+from jostle_lab.tables import Row, markdown_table, read_table
 
 
 def write_report(results: Results) -> Path:
@@ -30,6 +32,9 @@ def write_report(results: Results) -> Path:
         "one. A driftless random walk has rho^2 = 0.43 on average. Largest move: of the centre of a disk while "
         "recording.",
         _aliased_disks(results),
+        "## Power laws",
+        power_law_table(results),
+        *_pictures(results),
         "## Cost of the loop",
         _cost_table(results),
     ]
@@ -157,6 +162,32 @@ def _aliased_disks(results: Results, shown: int = 12) -> str:
     ]
     title = f"The camera has {len(wrong)} of {len(results.disks)} excursions wrong; the fastest:"
     return f"{title}\n\n{markdown_table(header, rows)}"
+
+
+def _pictures(results: Results) -> list[str]:
+    """What the pictures gave, if there are any."""
+    files = [results.folder_of(seed) / TABLE for seed in results.seeds]
+    if not all(file.exists() for file in files):
+        return []
+    frame = pl.concat([read_table(file) for file in files]).group_by("amplitude").mean()
+    rows = [
+        [
+            f"{row['amplitude']:.2f}",
+            f"{row['mean_square_rpm_pictures']:.4g}",
+            f"{row['correlation_pictures']:.3f}",
+            f"{row['adjusted_deviation_pictures']:.3f}",
+            f"{row['angle_error_degrees']:.2f}",
+            f"{100 * row['swapped']:.1f} %",
+            f"{row['lost']:.1f}",
+        ]
+        for row in frame.sort("amplitude", descending=True).to_dicts()
+    ]
+    header = ["A", "<omega^2> [RPM^2]", "<rho^2>", "<sigma_a>", "error of the angle [degrees]", "swapped", "lost"]
+    text = (
+        "Marks found in pictures of the packing, by threshold and ellipse, and followed by nearest neighbour. Swapped: "
+        "disks that are taken for another one. Lost: marks that were not found, for each packing."
+    )
+    return ["## By pictures", markdown_table(header, rows), text]
 
 
 def _cost_table(results: Results) -> str:

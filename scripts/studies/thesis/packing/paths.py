@@ -1,4 +1,4 @@
-"""P Fig. 3.10: angular paths of the disks of one packing by event-driven dynamics, nine Gamma."""
+"""P Figs 3.5 and 3.10: angular paths of the disks of one packing, by molecular and by event-driven dynamics."""
 
 import math
 from dataclasses import dataclass
@@ -9,60 +9,97 @@ from matplotlib.figure import Figure
 
 from jostle_lab.plots.style import CLOCKWISE, COUNTER_CLOCKWISE, WIDTH
 from jostle_lab.runs.laboratory import Laboratory
-from jostle_lab.statements import Product, Statement, Verdict, verdict
+from jostle_lab.runs.run import Run
+from jostle_lab.statements import Product
 from jostle_lab.statistics.estimates import Numbers
-from jostle_lab.statistics.rotation import RPM, Rotation, rotation
-from studies.thesis.packing.runs import RANDOM_PHASE, Record, angles, mean_square, packing_run
+from jostle_lab.statistics.rotation import RPM
+from jostle_lab.tables import Table
+from studies.thesis.packing.path_statements import event_driven_statements, molecular_statements
+from studies.thesis.packing.paths_found import Paths
+from studies.thesis.packing.runs import DISKS, MOLECULAR, RANDOM_PHASE, Method, shaken
 
-GAMMAS = (2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 20.0, 25.0)
 STIFFNESS = 1e4
-QUICK, FULL = Record(5.0, 60.0, 1.0), Record(30.0, 600.0, 2.0)
-STEADY = 0.95
-"""rho^2 from which a path counts as a straight line."""
+SEED = 1
+SOFT_GAMMAS = (0.3, 0.6, 0.9, 2.0, 5.0, 20.0)
+HARD_GAMMAS = (2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 20.0, 25.0)
 
 
 @dataclass(frozen=True)
-class Paths:
-    """Angles of all disks at one Gamma."""
+class Shaking:
+    """One packing: how, how strongly, how long."""
 
-    time: Numbers
-    """[s], shape (frames,)."""
-    angles: Numbers
-    """From the end of settling on [rad], shape (frames, disks)."""
-    sample: float
-    """[s]."""
+    method: Method
+    gamma: float
+    settling: int
+    """Unobserved [s], a whole number of frames."""
+    frame: int
+    """Time from point to point of the picture [s]; the rotation is measured once a second."""
+    frames: int
 
-    def rotation(self) -> Rotation:
-        """Mean velocities and steadiness."""
-        return rotation(self.angles, self.sample)
+    def run(self) -> Run:
+        """Its run."""
+        settings = shaken(self.method, STIFFNESS, self.gamma, SEED, self.settling)
+        whole = float(self.settling + self.frame * self.frames)
+        return Run("packing", self.method.engine, whole, float(self.frame), settings)
 
-    def changed(self) -> int:
-        """Disks whose mean angular velocities in the two halves differ by more than half of the larger, and 1 RPM."""
-        half = (len(self.angles) - 1) // 2
-        first = (self.angles[half] - self.angles[0]) / (half * self.sample) / RPM
-        second = (self.angles[2 * half] - self.angles[half]) / (half * self.sample) / RPM
-        larger = np.maximum(np.abs(first), np.abs(second))
-        return int(np.count_nonzero(np.abs(first - second) > np.maximum(0.5 * larger, 1.0)))
+    def paths(self, table: Table) -> Paths:
+        """What the run shows."""
+        first = self.settling // self.frame
+        turned = np.column_stack([table[f"disk.angle[{disk}]"][first:] for disk in range(1, DISKS + 1)])
+
+        def last(name: str) -> float:
+            return float(table[f"rotation.{name}"][-1])
+
+        return Paths(
+            np.arange(len(turned), dtype=np.float64) * self.frame,
+            turned - turned[0],
+            last("correlation"),
+            last("adjusted_deviation"),
+            last("share_rotating"),
+            last("mean_square") / RPM**2,
+        )
 
 
-def make(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Product:
-    """Run one packing at nine Gamma; it is one packing whatever the number of seeds."""
-    record, seed = QUICK if quick else FULL, 1
-    runs = {g: packing_run(RANDOM_PHASE, g, STIFFNESS, seed, record) for g in GAMMAS}
-    tables = laboratory.run(list(runs.values()), "figure 3.10")
-    found = {}
-    for g, run in runs.items():
-        turned = angles(tables[run], record)
-        found[g] = Paths(np.arange(len(turned), dtype=np.float64) * record.sample, turned - turned[0], record.sample)
-    rows = [row for g, paths in found.items() for row in _rows(g, paths)]
-    notes = [
-        f"fixed bottom with a random phase, seed {seed}, 60 disks, 80 Hz, k_n = 1e4 N/m, kappa = 0.77",
-        f"gamma_n = 0.1 kg/s, mu = 0.1; {record.settling:g} s unobserved, then {record.observed:g} s, one point in "
-        f"{record.sample:g} s",
-        f"steady: rho^2 of angle and time above {STEADY}; paths of single disks, hence no error bars",
+def _found(laboratory: Laboratory, shakings: list[Shaking], title: str) -> dict[float, Paths]:
+    tables = laboratory.run([s.run() for s in shakings], title)
+    return {s.gamma: s.paths(tables[s.run()]) for s in shakings}
+
+
+def molecular_dynamics(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Product:
+    """Figure 3.5; it is one packing whatever the number of seeds."""
+    frames, frame = (10, 1) if quick else (30, 10)
+    shakings = [Shaking(MOLECULAR, g, 2 * frame, frame, frames) for g in SOFT_GAMMAS]
+    found = _found(laboratory, shakings, "figure 3.5")
+    return Product(
+        "Figure 3.5: angular paths by molecular dynamics",
+        [row for g, paths in found.items() for row in _rows(g, paths)],
+        draw(found, (2, 3)),
+        molecular_statements(found),
+        _notes("molecular dynamics", shakings[0]),
+    )
+
+
+def event_driven(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Product:
+    """Figure 3.10; it is one packing whatever the number of seeds."""
+    frames, frame = (12, 5) if quick else (30, 20)
+    shakings = [Shaking(RANDOM_PHASE, g, 2 * frame, frame, frames) for g in HARD_GAMMAS]
+    found = _found(laboratory, shakings, "figure 3.10")
+    return Product(
+        "Figure 3.10: angular paths by event-driven dynamics",
+        [row for g, paths in found.items() for row in _rows(g, paths)],
+        draw(found, (3, 3)),
+        event_driven_statements(found),
+        _notes("event-driven dynamics, fixed bottom with a random phase", shakings[0]),
+    )
+
+
+def _notes(method: str, shaking: Shaking) -> list[str]:
+    return [
+        f"{method}, seed {SEED}, 60 disks, 80 Hz, k_n = 1e4 N/m, kappa = 0.77, gamma_n = 0.1 kg/s, mu = 0.1",
+        f"{shaking.settling} s unobserved, then {shaking.frame * shaking.frames} s; points of the picture every "
+        f"{shaking.frame} s; rho^2 and sigma_a from angles once a second, as P defines them",
+        "one packing, as in P; errors are those of shares of 60 disks",
     ]
-    title = "Figure 3.10: angular paths by event-driven dynamics"
-    return Product(title, rows, draw(found), statements(found), notes)
 
 
 def _rows(gamma: float, paths: Paths) -> list[dict[str, Any]]:
@@ -72,64 +109,33 @@ def _rows(gamma: float, paths: Paths) -> list[dict[str, Any]]:
     ]
 
 
-def draw(found: dict[float, Paths]) -> Figure:
-    """One panel for each Gamma; blue counter-clockwise, red clockwise."""
-    figure = Figure(figsize=(WIDTH, 6.0), layout="constrained")
-    axes = figure.subplots(3, 3, sharex=True)
+def draw(found: dict[float, Paths], shape: tuple[int, int]) -> Figure:
+    """One panel for each Gamma, all on one scale; where growth would hide the paths, an inset at their own scale."""
+    figure = Figure(figsize=(WIDTH, 2.2 * shape[0]), layout="constrained")
+    axes = figure.subplots(*shape, sharex=True, sharey=True)
+    limit = 1.05 * max(float(np.max(np.abs(paths.angles))) for paths in found.values()) / math.tau
     for panel, (gamma, paths) in zip(axes.flat, found.items(), strict=True):
         turns = paths.angles / math.tau
-        for path in turns.T:
-            panel.plot(paths.time, path, lw=0.6, color=COUNTER_CLOCKWISE if path[-1] > 0.0 else CLOCKWISE, alpha=0.8)
+        _lines(panel, paths.time, turns)
         panel.axhline(0.0, color="0.5", lw=0.4, zorder=0)
-        limit = 1.08 * float(np.max(np.abs(turns)))
         panel.set(xlim=(0.0, paths.time[-1]), ylim=(-limit, limit))
         panel.set_title(rf"$\Gamma$ = {gamma:g}", pad=3.0)
-        panel.locator_params(axis="y", nbins=5)
-        panel.locator_params(axis="x", nbins=4)
+        panel.locator_params(axis="both", nbins=5)
+        own = 1.05 * float(np.max(np.abs(turns)))
+        if own < 0.35 * limit:
+            inset = panel.inset_axes((0.16, 0.62, 0.5, 0.36))
+            _lines(inset, paths.time, turns)
+            inset.set(xlim=(0.0, paths.time[-1]), ylim=(-own, own), xticks=[])
+            inset.tick_params(labelsize=6.0)
     for panel in axes[:, 0]:
         panel.set_ylabel("angle [revolutions]")
     for panel in axes[-1]:
         panel.set_xlabel("time [s]")
-    figure.align_ylabels(axes[:, 0])
+    figure.suptitle("solid blue: counter-clockwise in the end; dashed red: clockwise", fontsize=8.0)
     return figure
 
 
-def statements(found: dict[float, Paths]) -> list[Statement]:
-    """What P 3.3 says of this figure."""
-    turning = {g: p.rotation() for g, p in found.items()}
-    steady = {g: float(np.mean(r.correlation > STEADY)) for g, r in turning.items()}
-    noise = {g: float(np.mean(r.adjusted_deviation)) for g, r in turning.items()}
-    square = {g: mean_square(p.angles, p.sample) for g, p in found.items()}
-    changed = {g: p.changed() for g, p in found.items()}
-    return [
-        Statement(
-            "3.3",
-            "for all Gamma all paths look linear: all disks turn with nearly constant velocity",
-            "share of steady disks: " + ", ".join(f"{g:g}: {s:.2f}" for g, s in steady.items()),
-            _share([s > 0.9 for s in steady.values()]),
-        ),
-        Statement(
-            "3.3",
-            "velocity fluctuations are not appreciable on this scale",
-            "<sigma_a>: " + ", ".join(f"{g:g}: {s:.2f}" for g, s in noise.items()),
-            _share([s < 0.5 for s in noise.values()]),
-        ),
-        Statement(
-            "3.3",
-            "partial rearrangements change the velocity of some disks (at Gamma = 2 and 8 there)",
-            "disks that change velocity: " + ", ".join(f"{g:g}: {n}" for g, n in changed.items()),
-            verdict(any(changed.values())),
-        ),
-        Statement(
-            "3.2, 3.3",
-            "disks turn the same way for good, faster as Gamma grows (up to about 10)",
-            "<omega^2> [RPM^2]: " + ", ".join(f"{g:g}: {s:.3g}" for g, s in square.items()),
-            verdict(square[2.0] < square[4.0] < square[8.0]),
-        ),
-    ]
-
-
-def _share(holds: list[bool]) -> Verdict:
-    if all(holds):
-        return Verdict.AGREES
-    return Verdict.PARTLY if any(holds) else Verdict.DISAGREES
+def _lines(panel: Any, time: Numbers, turns: Numbers) -> None:
+    for path in turns.T:
+        up = path[-1] > 0.0
+        panel.plot(time, path, "-" if up else "--", lw=0.6, color=COUNTER_CLOCKWISE if up else CLOCKWISE, alpha=0.8)

@@ -8,17 +8,20 @@ from matplotlib.figure import Figure
 
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
-from jostle_lab.statements import Product, Statement, Verdict, verdict
+from jostle_lab.statements import Product, Statement
 from jostle_lab.statistics.estimates import Numbers
 from jostle_lab.tables import Table
+from jostle_lab.verdicts import exact, true
 from studies.thesis.two_supports.runs import NORMAL_STIFFNESS, PERIODS, Torque, notes
 from studies.thesis.two_supports.spring_region import Region, distance_to_path, region
 
 TILT = 0.1 * math.pi
 STILL, SLIDING = Torque(TILT, 0.100), Torque(TILT, 0.113)
-SAMPLES = 8000
+SAMPLES = 500
 """Points a period."""
-QUICK_SAMPLES = 1000
+QUICK_SAMPLES = 300
+ON_PATH = 1e-2
+"""A point within this part of the distance from S1 to S2 is on a line: the width of a line in print."""
 SHOWN = 1e8
 """Scale of the axes."""
 
@@ -59,13 +62,16 @@ def _points(table: Table, last_period: bool = True) -> Numbers:
 
 
 def _draw(still: Table, sliding: Table, rigid: Region) -> Figure:
-    figure = Figure(figsize=(0.75 * WIDTH, 4.6), layout="constrained")
+    figure = Figure(figsize=(0.85 * WIDTH, 4.6), layout="constrained")
     panel = figure.subplots()
-    panel.plot(*(SHOWN * rigid.outline.T), "k:", lw=1.0)
+    panel.plot(*(SHOWN * rigid.outline.T), "k:", lw=1.0, label="admissible region, 4.41 to 4.49")
     panel.plot(*(SHOWN * rigid.cycle().T), color="#c0272d", lw=2.4, alpha=0.35, label="path of 5.2.3")
     for table, colour, amplitude in ((sliding, "0.1", SLIDING.amplitude), (still, "0.6", STILL.amplitude)):
         panel.plot(
-            *(SHOWN * _points(table, last_period=False).T), color=colour, lw=0.7, label=f"$A_e$ = {amplitude:.3f}"
+            *(SHOWN * _points(table, last_period=False).T),
+            color=colour,
+            lw=0.7,
+            label=f"simulation, $A_e$ = {amplitude:.3f} N m",
         )
     for name, corner in rigid.corners.items():
         if name.startswith("D"):
@@ -103,44 +109,69 @@ def _statements(still: Table, sliding: Table, rigid: Region, soft: Region) -> li
             f"{name}: largest {v.max():.1e}, rms {math.sqrt(float(np.mean(v * v))):.1e}" for name, v in values.items()
         )
 
+    text = "; ".join(
+        f"{name}: Theta strays by {spread / unit:.1e} while the departure covers {span / unit:.2f}"
+        for name, (spread, span) in levels.items()
+    )
+    close = f"{ON_PATH:g} of the distance from S1 to S2"
     return [
-        Statement(
+        Statement.judged(
             "5.2.3",
             "A_e = 0.100: never at a sliding point, the disk does not rotate",
             f"{turned:.1e} rad in the last period; it rolls to and fro by {rolled:.1e} rad as its centre moves; "
             f"at most {inside:.1e} outside the quadrilateral, regime {regimes[0]}",
-            verdict(regimes[0] == 0 and turned < 1e-6 * rolled),
+            exact(regimes[0], 0.0, "sliding regime") & exact(turned / rolled, 1e-6, "rotation over rolling"),
         ),
-        Statement(
+        Statement.judged(
             "5.2.3",
             "A_e = 0.113: bidirectional, S1 and S2 are reached",
             f"regime {regimes[1]}; distance of the path from S1 and S2: "
             + "; ".join(f"{name} {pair[0]:.1e}, {pair[1]:.1e}" for name, pair in corners.items()),
-            verdict(regimes[1] == 2 and max(corners["rigid"]) < 1e-2),
+            true(regimes[1] == 2 and max(corners["rigid"]) < ON_PATH, f"both senses, each point within {close}"),
         ),
-        Statement(
+        Statement.judged(
             "Fig. 5.6",
             "the path stays in the quadrilateral",
             "distance beyond it: " + listed(beyond),
-            verdict(float(beyond["rigid"].max()) < 1e-2),
+            exact(float(beyond["rigid"].max()), ON_PATH, "distance over that from S1 to S2"),
         ),
-        Statement(
+        Statement.judged(
             "5.2.3",
             "S1, Theta = const, line T2 S2, S2, Theta = const, line T1 S1, S1",
             "distance from that path: " + listed(from_path),
-            verdict(float(from_path["rigid"].max()) < 1e-2),
+            exact(float(from_path["rigid"].max()), ON_PATH, "distance over that from S1 to S2"),
         ),
-        Statement(
+        Statement.judged(
             "5.2.3",
             "when the disk stops the system leaves S along Theta = Theta_S",
-            "; ".join(
-                f"{name}: Theta strays by {spread / unit:.1e} while the departure covers {span / unit:.2f}"
-                for name, (spread, span) in levels.items()
-            )
-            + "; the springs oscillate along this line after the stop, damped by the normal dashpots alone",
-            Verdict.AGREES if all(spread < 1e-2 * unit < span for spread, span in levels.values()) else Verdict.PARTLY,
+            text + "; the springs oscillate along this line after the stop, damped by the normal dashpots alone",
+            true(
+                all(spread < ON_PATH * unit < span for spread, span in levels.values()),
+                f"Theta stays within {close}, the departure does not",
+            ),
+        ),
+        Statement.judged(
+            "5.2.3",
+            "on T1 S1 contact 1 starts to slide",
+            _sliding(sliding, points, rigid),
+            true(_sliding_contact(sliding, points, rigid) == 1, "which contact slips on that edge; no chance"),
+            "4.38 (c), the condition of that edge, is the one of contact 2, as P 4.4 says: a slip of the pen in 5.2.3",
         ),
     ]
+
+
+def _sliding_contact(table: Table, points: Numbers, rigid: Region) -> int:
+    """Contact that slips alone along the inner part of the edge T1 S1."""
+    edge = np.array([rigid.corners["T1"], rigid.corners["S1"]])
+    near = distance_to_path(points, edge) < ON_PATH * rigid.size
+    away = np.linalg.norm(points - rigid.corners["S1"], axis=1) > 0.1 * rigid.size
+    states = np.column_stack([table[f"contact[{i}].state"][-len(points) :] for i in (1, 2)])[near & away]
+    alone = [(int(np.sum((states[:, i] > 2) & (states[:, 1 - i] == 2))), i + 1) for i in (0, 1)]
+    return max(alone)[1]
+
+
+def _sliding(table: Table, points: Numbers, rigid: Region) -> str:
+    return f"contact {_sliding_contact(table, points, rigid)} slips there, the other one sticks"
 
 
 def _level(table: Table, points: Numbers, name: str, soft: Region) -> tuple[float, float]:

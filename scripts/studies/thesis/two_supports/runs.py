@@ -9,7 +9,7 @@ import numpy as np
 
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.runs.run import Run
-from jostle_lab.statistics.estimates import Numbers
+from jostle_lab.statistics.estimates import Estimate
 from jostle_lab.tables import Table
 
 SCENE, ENGINE = "three_disk", "molecular-dynamics"
@@ -69,6 +69,15 @@ class Turning:
     """0 none, 1 unidirectional, 2 bidirectional."""
     opened: bool
     """Whether a contact opened."""
+    clockwise: float
+    """Time at S1 in the last period [s]."""
+    counter_clockwise: float
+    """Time at S2 in the last period [s]."""
+
+    @property
+    def estimate(self) -> Estimate:
+        """Angular velocity, with its change for an error [rad/s]."""
+        return Estimate(self.velocity, self.change)
 
 
 def turning(torque: Torque, table: Table) -> Turning:
@@ -79,6 +88,8 @@ def turning(torque: Torque, table: Table) -> Turning:
         float(abs(turned[-1] - turned[-2])),
         int(table["sliding_regime"][-1]) - 1,
         bool(table["detachments"][-1] > 0),
+        float(table["sliding.s1.time"][-1]),
+        float(table["sliding.s2.time"][-1]),
     )
 
 
@@ -110,19 +121,6 @@ def limits(laboratory: Laboratory, tilt: float, normal_stiffness: float = math.i
     """Theory: A_S1, A_S2, A_0, A_rest [N m], detachment_tilt [rad] at a tilt."""
     table = laboratory.theory(SCENE, "limits", tilt=tilt, contact__normal_stiffness=normal_stiffness)
     return {name: float(column[0]) for name, column in table.items()}
-
-
-def slope(x: Numbers, y: Numbers) -> tuple[float, float]:
-    """Slope of log y against log x by least squares, and its standard error from the scatter about the line."""
-    u, v = np.log(x) - np.log(x).mean(), np.log(y) - np.log(y).mean()
-    fitted = float(u @ v / (u @ u))
-    rest = v - fitted * u
-    return fitted, float(np.sqrt(rest @ rest / max(len(u) - 2, 1) / (u @ u)))
-
-
-def slope_text(found: tuple[float, float]) -> str:
-    """Slope with its error."""
-    return f"{found[0]:.3f} +- {found[1]:.3f}"
 
 
 def row(torque: Torque, found: Turning, theory: float) -> dict[str, Any]:

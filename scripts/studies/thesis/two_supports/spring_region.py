@@ -55,9 +55,26 @@ class Region:
 
 def region(laboratory: Laboratory, tilt: float, normal_stiffness: float = math.inf) -> Region:
     """Quasi-static region at a tilt [rad], of rigid contacts or of soft ones."""
-    table = laboratory.theory(SCENE, "points", tilt=tilt, contact__normal_stiffness=normal_stiffness)
+    return Region(corners(laboratory, tilt, normal_stiffness))
+
+
+def corners(
+    laboratory: Laboratory,
+    tilt: float,
+    normal_stiffness: float = math.inf,
+    acceleration: tuple[float, float] = (0.0, 0.0),
+) -> dict[str, Numbers]:
+    """Corners by name at an acceleration of the centre [m/s^2], each (departure, stretch) [rad]."""
+    table = laboratory.theory(
+        SCENE,
+        "points",
+        tilt=tilt,
+        contact__normal_stiffness=normal_stiffness,
+        acceleration__x=acceleration[0],
+        acceleration__y=acceleration[1],
+    )
     names = [name.partition(".")[0] for name in table if name.endswith(".departure")]
-    return Region({name: np.array([table[f"{name}.departure"][0], table[f"{name}.stretch"][0]]) for name in names})
+    return {name: np.array([table[f"{name}.departure"][0], table[f"{name}.stretch"][0]]) for name in names}
 
 
 def distance_to_path(points: Numbers, path: Numbers) -> Numbers:

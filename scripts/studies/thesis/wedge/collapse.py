@@ -8,9 +8,12 @@ from matplotlib.figure import Figure
 from jostle_lab.plots.curves import draw_curve
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
-from jostle_lab.statements import Product, Statement, verdict
-from jostle_lab.statistics.estimates import Estimate, chi_square, sign_changes, zero_crossings
+from jostle_lab.statements import Product, Statement
+from jostle_lab.statistics.estimates import Estimate
+from jostle_lab.statistics.power_law import weighted_power_law
+from jostle_lab.verdicts import near
 from studies.thesis.wedge.curves import QUICK_TILTS, TILTS, Curve, Effort, Wedge, curves, effort, tilt_axes
+from studies.thesis.wedge.rules import alike, changes_sense, peak, symmetric
 
 GAMMAS = (1.0, 10.0, 100.0)
 FREQUENCIES = (1.0, 10.0, 100.0)
@@ -41,7 +44,7 @@ def nine(laboratory: Laboratory, tilts: tuple[float, ...], effort: Effort) -> li
 
 def draw(found: list[Curve]) -> Figure:
     """The collapse, and below it what is left after the common mean is taken off."""
-    figure = Figure(figsize=(0.75 * WIDTH, 5.0), layout="constrained")
+    figure = Figure(figsize=(0.85 * WIDTH, 5.0), layout="constrained")
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[2.4, 1.0])
     common = [average([curve.points[i] for curve in found]) for i in range(len(found[0].tilts))]
     for number, curve in enumerate(found):
@@ -69,34 +72,41 @@ def average(points: list[Estimate]) -> Estimate:
 
 
 def statements(found: list[Curve]) -> list[Statement]:
-    """Collapse, sign change, symmetric wedge."""
+    """Collapse, proportionality, sign change, symmetric wedge."""
     tilts = found[0].tilts
-    common = [average([curve.points[i] for curve in found]) for i in range(len(tilts))]
-    differences = [p.mean - c.mean for curve in found for p, c in zip(curve.points, common, strict=True)]
-    errors = [p.error for curve in found for p in curve.points]
-    ratio, p_value = chi_square(differences, errors, lost=len(tilts))
-    peak = max(abs(c.mean) for c in common)
-    zero = average([curve.at(0.0) for curve in found])
-    crossings = zero_crossings(tilts, common)
+    common = Curve(found[0].wedge, tilts, tuple(average([c.points[i] for c in found]) for i in range(len(tilts))), 1.0)
+    differences = [
+        Estimate(p.mean - c.mean, p.error) for curve in found for p, c in zip(curve.points, common.points, strict=True)
+    ]
+    text, judgement = alike(differences, peak(found), lost=len(tilts))
+    zero = {"mean of nine": Curve(common.wedge, tilts, common.points, 1.0)}
     return [
-        Statement(
+        Statement.judged(
             "Fig. 6.4",
             "the nine pairs are indistinguishable when scaled by A omega_b",
-            f"chi^2 per degree of freedom {ratio:.3f}, p = {p_value:.2g}; largest difference from the mean "
-            f"{max(map(abs, differences)):.2g}, {100 * max(map(abs, differences)) / peak:.1f} % of the largest value",
-            verdict(p_value > 0.01),
+            text,
+            judgement,
         ),
-        Statement(
-            "6.2, 6.4",
-            "the sense of rotation changes with tilt",
-            f"{sign_changes(crossings, 'degrees')}; largest "
-            f"{max(common, key=lambda c: c.mean)}, smallest {min(common, key=lambda c: c.mean)}",
-            verdict(bool(crossings)),
-        ),
-        Statement(
-            "6.1",
-            "a symmetric wedge does not turn the disk",
-            f"zero tilt: {zero.mean:.1e} +- {zero.error:.1e}",
-            verdict(abs(zero.mean) < 3.0 * zero.error),
-        ),
+        linear(found),
+        changes_sense({"mean of nine": common}),
+        symmetric(zero),
     ]
+
+
+def linear(found: list[Curve]) -> Statement:
+    """The angular velocity is proportional to A omega_b: exponent where the rotation is strongest."""
+    index = max(range(len(found[0].tilts)), key=lambda i: abs(found[0].points[i].mean))
+    speeds = np.array([curve.wedge.base_velocity for curve in found])
+    sign = np.sign(found[0].points[index].mean)
+    points = [
+        Estimate(float(sign * c.points[index].mean * v), c.points[index].error * float(v))
+        for c, v in zip(found, speeds, strict=True)
+    ]
+    exponent = weighted_power_law(speeds, points)
+    return Statement.judged(
+        "6.3.2",
+        "the rotational velocity scales linearly with A omega_b",
+        f"exponent {exponent} at a tilt of {found[0].tilts[index]:g} degrees, A omega_b from {speeds.min():.2g} to "
+        f"{speeds.max():.3g} m/s",
+        near(exponent, 1.0, 0.01),
+    )

@@ -108,7 +108,7 @@ class Effort:
         ]
 
 
-QUICK, FULL = Effort(1e6, 2), Effort(3e6, 4)
+QUICK, FULL = Effort(5e5, 2), Effort(2e6, 2)
 """Of the map. The thesis' 300 s at Gamma = 2 and 80 Hz are 7.5e4 in these units."""
 
 

@@ -16,7 +16,9 @@ from jostle_lab.files import replace_text
 from jostle_lab.protocol import intervals as protocol
 from jostle_lab.protocol.experiment import Setup
 from jostle_lab.protocol.packings import Plan, run
+from jostle_lab.protocol.pictures import Processing, process
 from jostle_lab.protocol.results import Results
+from jostle_lab.tables import read_table
 
 
 def plan(folder, **changes):
@@ -87,9 +89,31 @@ def test_pictures_and_page_are_written(finished):
         "rotation_against_gamma.png",
     ]
     page = write_report(results).read_text()
-    assert page.count("| 1.00 |") == 2
+    assert page.count("\n| 1.00 |") == 2
     assert "| loudspeaker |" in page
     assert "nan" not in page
+
+
+def test_pictures_of_the_packing_give_what_the_camera_gives(tmp_path):
+    setup = Setup(protocol.scaled_down((1.0, 0.4), 8), steps_per_second=800, keep_positions=True)
+    run(plan(tmp_path, seeds=(1,), setup=setup, processes=1), make_turning_lump)
+    results = Results(tmp_path)
+    assert results.positions(1, 1.0).shape == (7, 60, 2)
+    assert results.radii(1).tolist() == np.resize([0.015, 0.02, 0.025], 60).tolist()
+    process(results, Processing())
+    strong, weak = read_table(results.folder_of(1) / "pictures.csv").to_dicts()
+    for row, amplitudes in zip((strong, weak), results.amplitudes_of(1), strict=True):
+        assert row["lost"] == row["swapped"] == 0
+        assert row["mean_square_rpm_pictures"] == pytest.approx(amplitudes["mean_square_rpm_camera"], rel=0.1, abs=0.01)
+        assert 0.0 < row["angle_error_degrees"] < 0.5
+    assert "## By pictures" in write_report(results).read_text()
+
+
+def test_both_sensors_are_in_the_table(finished):
+    row = Results(finished).amplitudes_of(1)[0]
+    assert row["gamma_measured"] == pytest.approx(0.5 * (row["gamma_sensor_1"] + row["gamma_sensor_2"]))
+    assert row["mean_reading_1"] == pytest.approx(-1.0, abs=0.05)
+    assert Results(finished).summaries[0]["processor_seconds"] > 0.0
 
 
 def test_a_picture_can_be_drawn_after_the_first_interval(tmp_path):

@@ -1,0 +1,1 @@
+"""Every claim of both papers on one page."""

@@ -1,0 +1,1 @@
+"""What P 1 and 2 say of packings and of the methods."""

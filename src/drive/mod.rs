@@ -3,10 +3,12 @@
 //! A drive is a type, so that a scene compiles only the one it has.
 
 mod base_motion;
+mod bottom;
 pub mod excitation;
 mod extrapolation;
 mod first_hit;
 mod follows_input;
+mod gaussian_step;
 mod quintic;
 mod random_phase;
 mod sine;
@@ -15,6 +17,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 pub use base_motion::{AtRandomPhase, BaseMotion, BaseProfile, DrawCounts};
+pub use bottom::{FixedBottom, HeldDisk, RandomBottom, RandomVibration};
 pub use extrapolation::{Contradiction, Degree, Extrapolation, InputHistory, InputSample};
 pub use first_hit::FirstHit;
 pub use follows_input::FollowsInput;
@@ -34,8 +37,16 @@ pub struct Motion {
 
 /// A motion of the base as a function of time. It is part of the state: what changes in it is saved and restored.
 pub trait Drive: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static {
+    /// Whether it moves disks too, beside the base.
+    const MOVES_DISKS: bool = false;
+
     /// Motion at `time` \[s\].
     fn motion(&self, time: f64) -> Motion;
+
+    /// Tells `place` the index, position \[m\] and velocity \[m/s\] of each disk that it moves, at `time` \[s\]. Times do not go back by
+    /// more than a time step.
+    #[inline(always)]
+    fn move_disks(&mut self, _time: f64, _place: impl FnMut(usize, [f64; 2], [f64; 2])) {}
 }
 
 /// A drive whose acceleration is bounded as far as its motion is known.

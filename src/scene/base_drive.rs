@@ -1,7 +1,7 @@
 //! What moves the base of a scene, as a type: the rows of its parameters and inputs, and how it reads them. The types that
 //! there are stand in [`drives`](super::drives), one a file.
 
-use crate::drive::Drive;
+use crate::drive::{Drive, HeldDisk};
 
 use super::{Result, Row, Values, Warning};
 
@@ -43,6 +43,14 @@ pub trait BaseDrive: Drive {
 
     /// Frequency \[Hz\] if it is known before the run.
     fn frequency(&self) -> Option<f64>;
+
+    /// Takes the disks that stand on the floor, if it moves disks.
+    fn hold(&mut self, _disks: &[HeldDisk]) {}
+
+    /// Whether `other` can be the drive of a state of this run at `time` \[s\]: states come from outside.
+    fn continues(&self, _other: &Self, _time: f64) -> bool {
+        true
+    }
 
     /// What is doubtful of the inputs so far.
     fn warning(&self, _told: &[&'static str]) -> Option<Warning> {

@@ -13,7 +13,9 @@ pub mod drives {
     //! The drives of a base, one a file: their parameters and inputs as rows.
 
     pub(super) mod extrapolated;
+    mod fixed_bottom;
     mod follows_input;
+    mod random_bottom;
     pub mod sine;
 }
 pub mod hard_disks;
@@ -45,6 +47,8 @@ pub use recipe::Recipe;
 pub const MODELS: &[ModelType] = &[
     ModelType::of::<packing::PackingOnInput>(),
     ModelType::of::<packing::PackingOnSine>(),
+    ModelType::of::<packing::PackingOnFixedBottom>(),
+    ModelType::of::<packing::PackingOnRandomBottom>(),
     ModelType::of::<packing::LocatedPackingOnInput>(),
     ModelType::of::<packing::LocatedPackingOnSine>(),
     ModelType::of::<packing::event_driven::HardPackingOnInput>(),

@@ -18,7 +18,7 @@ mod soft_packing;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::LinearDashpot;
-use crate::drive::{FollowsInput, Sine};
+use crate::drive::{FixedBottom, FollowsInput, RandomBottom, Sine};
 use crate::engine::dem::event_located::EventStepper;
 use crate::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
 use crate::measure::Rotation;
@@ -32,6 +32,10 @@ pub type PackingOn<D, N = LinearDashpot> = SoftPacking<PredictorCorrector<Veloci
 pub type PackingOnInput = PackingOn<FollowsInput>;
 /// The base moves as a sine.
 pub type PackingOnSine = PackingOn<Sine>;
+/// The base moves as a sine, and the bottom row of disks is fixed to it.
+pub type PackingOnFixedBottom = PackingOn<FixedBottom>;
+/// The bottom row of disks vibrates randomly over a base at rest.
+pub type PackingOnRandomBottom = PackingOn<RandomBottom>;
 
 /// The same of fourth order, with located contact events.
 pub type LocatedPackingOn<D> = SoftPacking<EventStepper, D>;

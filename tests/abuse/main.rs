@@ -18,7 +18,10 @@ use jostle::scene::disk_on_two_supports::{
     DiskOnTwoSupportsOnSine,
 };
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
-use jostle::scene::packing::{LocatedPackingOnInput, LocatedPackingOnSine, PackingOnInput, PackingOnSine};
+use jostle::scene::packing::{
+    LocatedPackingOnInput, LocatedPackingOnSine, PackingOnFixedBottom, PackingOnInput, PackingOnRandomBottom,
+    PackingOnSine,
+};
 use jostle::scene::ratchet::{RatchetOnInput, RatchetOnSine};
 use jostle::scene::wedge::{WedgeEventDriven, WedgeMap, WedgeMolecularDynamics};
 use rand::RngExt;
@@ -94,6 +97,8 @@ fn corrected_parameters_stay_corrected() {
 scenes! {
     packing_on_sine: PackingOnSine, 12, 60;
     packing_on_input: PackingOnInput, 8, 40;
+    packing_on_fixed_bottom: PackingOnFixedBottom, 12, 40;
+    packing_on_random_bottom: PackingOnRandomBottom, 12, 40;
     located_packing_on_sine: LocatedPackingOnSine, 12, 60;
     located_packing_on_input: LocatedPackingOnInput, 8, 40;
     hard_packing_on_sine: HardPackingOnSine, 12, 60;

@@ -56,7 +56,7 @@ fn help_lists_scenes_engines_and_drives() {
     ] {
         let help = text(&jostle(arguments).stdout);
         for line in [
-            "  packing     molecular-dynamics          input, sine\n",
+            "  packing     molecular-dynamics          input, sine, sine-fixed-bottom, random-bottom\n",
             "              event-driven                input, sine\n",
             "  three_disk  molecular-dynamics          input, harmonic-torque, random-supports, sine\n",
         ] {

@@ -72,7 +72,7 @@ pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
     fn constants(&self) -> &SoftDisks<Self::Normal>;
 
     /// Starts from positions and velocities that were set from outside: overlapping disks have just touched.
-    fn start<D>(&mut self, state: &mut GridState<D, Self::Disks>);
+    fn start<D: Drive>(&mut self, state: &mut GridState<D, Self::Disks>);
 
     /// Makes room for all the contacts that the disks may have, so that no step allocates for them.
     fn make_room(disks: &mut Self::Disks);

@@ -10,7 +10,8 @@ pub struct SoftDiskSetup<N = LinearDashpot> {
     pub laws: ContactLaws<N>,
     /// Walls; those that follow the base move with the drive.
     pub walls: Vec<Wall>,
-    /// Mass of each disk \[kg\]; the moment of inertia is that of a uniform disk.
+    /// Mass of each disk \[kg\]; the moment of inertia is that of a uniform disk. Disks that the drive moves have the mass 0: they
+    /// belong to the floor, which is the first wall, and have neither energy nor momentum.
     pub masses: Vec<f64>,
     /// Gravity \[m/s2\], downwards.
     pub gravity: f64,

@@ -18,6 +18,11 @@ velocity and acceleration; the quintic ends where the polynomial leads that extr
 <code>base.displacement</code>, <code>base.velocity</code> and <code>base.acceleration_input</code>, of degree five at most</li>
 <li>base driven as a sine: <i>y</i> = <i>A</i> sin(2 &pi; <i>f</i> <i>t</i> + <i>&phi;</i>);
 &Gamma; = <i>A</i> (2 &pi; <i>f</i>)<sup>2</sup> / <i>g</i></li>
+<li>drives that hold the bottom row (the disks that stand on the floor at the start; they do not turn and belong to the base):
+<code>sine-fixed-bottom</code> moves it with the base, <code>random-bottom</code> displaces the centre of each of its disks by
+<i>d</i> = &epsilon; <i>q</i> &radic;((1 &minus; exp(&minus;<i>s</i>)) / (2 <i>s</i>)), <i>s</i> = |<i>q</i>|<sup>2</sup>/2,
+with <i>q</i> two damped oscillators of unit variance forced by white noise: anywhere in the circle of radius &epsilon; with
+the same probability</li>
 <li>side walls: they stand still and rub on disks that the floor carries, or with <code>wall.motion</code> =
 <code>with_base</code> move up and down with the floor, as those of a box on a shaker do; <code>base.reaction_force</code>
 then holds their friction</li>

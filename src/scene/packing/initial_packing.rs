@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
+use crate::drive::HeldDisk;
 use crate::geometry::{Disk, Wall};
 use crate::packing::{RadiusClass, RadiusDistribution, advancing_front};
 use crate::scene::{Error, Result, Unit, Values, Warning};
@@ -80,6 +81,16 @@ pub fn warning(disks: &[Disk], draws: bool, values: &Values) -> Option<Warning> 
     Some(Warning { topic: "seed", text })
 }
 
+/// Says if a drive that moves `bottom` leaves no other of so many disks.
+pub fn bottom_warning(bottom: &[HeldDisk], disks: usize) -> Option<Warning> {
+    let text = "all disks stand on the floor and belong to the bottom row, so that nothing moves freely. Take more disks or a \
+                smaller box.width.";
+    (bottom.len() == disks).then(|| Warning {
+        topic: "bottom",
+        text: text.into(),
+    })
+}
+
 /// Mass of each disk \[kg\].
 pub fn masses(disks: &[Disk], values: &Values) -> Vec<f64> {
     let surface_density = values.real("disk.surface_density");
@@ -87,6 +98,22 @@ pub fn masses(disks: &[Disk], values: &Values) -> Vec<f64> {
         .iter()
         .map(|disk| surface_density * std::f64::consts::PI * disk.radius.powi(2))
         .collect()
+}
+
+/// The disks that stand on a base at height zero, as a drive holds them: a settled disk overlaps with it, and one that is
+/// displaced at the start may be off it by as much as that.
+pub fn bottom_row(disks: &[Disk], values: &Values) -> Vec<HeldDisk> {
+    let displaced = match values.integer(rows::SETTLED) {
+        1 => 0.0,
+        _ => values.real(rows::PERTURBATION),
+    };
+    let farthest = 1.0 + 1e-6 + displaced * (1.0 + FRAC_1_SQRT_2);
+    let stands = |(_, disk): &(u32, &Disk)| disk.y <= farthest * disk.radius;
+    let held = |(index, disk): (u32, &Disk)| HeldDisk {
+        index,
+        place: [disk.x, disk.y],
+    };
+    (0..).zip(disks).filter(stands).map(held).collect()
 }
 
 /// The vibrating bottom, then the left and the right wall of the box.

@@ -70,11 +70,13 @@ impl AtStart {
         let position = [D::DISPLACEMENT_AT_START, base_model].concat();
         let places = names(&[PLACES, settling]);
         let heights = names(&[&places, &position]);
+        // Which disks belong to the base is a matter of places.
+        let free: &[&str] = if D::MOVES_DISKS { &places } else { &[] };
         let mass_and_motion = &[SETTLED, "seed", "disk.surface_density", RADII[0], RADII[1], RADII[2]];
         Self {
             radii: names(&[&RADII, &["seed"]]),
             touching: Arc::clone(&heights),
-            kinetic_energy: names(&[mass_and_motion, D::VELOCITY_AT_START, base_model]),
+            kinetic_energy: names(&[mass_and_motion, D::VELOCITY_AT_START, base_model, free]),
             potential_energy: names(&[&heights, &["gravity", "disk.surface_density"]]),
             heights,
             places,

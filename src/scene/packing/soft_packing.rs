@@ -48,10 +48,17 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
     /// # Errors
     /// A time step that the contacts do not allow, by name.
     pub fn of_disks(disks: &[Disk], start_time: f64, values: &Values) -> Result<Self> {
-        let drive = D::new(start_time, values)?;
+        let mut drive = D::new(start_time, values)?;
         let laws = contact_laws(values);
-        let masses = initial_packing::masses(disks, values);
+        let mut masses = initial_packing::masses(disks, values);
         let limits = S::limits(&laws, &masses, drive.frequency(), values);
+        let mut warnings: Vec<Warning> = initial_packing::warning(disks, false, values).into_iter().collect();
+        if D::MOVES_DISKS {
+            let bottom = initial_packing::bottom_row(disks, values);
+            bottom.iter().for_each(|disk| masses[disk.index as usize] = 0.0);
+            drive.hold(&bottom);
+            warnings.extend(initial_packing::bottom_warning(&bottom, disks.len()));
+        }
         // The packing starts on the floor, wherever the drive has it.
         let lift = drive.motion(start_time).displacement;
         let disks: Vec<Disk> = disks.iter().map(|disk| disk.raised(lift)).collect();
@@ -67,7 +74,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
             engine: FixedGrid::new(setup, &disks, drive),
             limits,
             work_limit: WorkLimit::new(start_time, disks.len(), values),
-            warnings: initial_packing::warning(&disks, false, values).into_iter().collect(),
+            warnings,
             report: StepReport::at_start(start_time),
             start_energy: 0.0,
             rotation: RotationRecord::new(disks.len(), start_time, values),
@@ -101,7 +108,8 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         let from = self.report.time;
         let duration = end_time - from;
         let impulse = self.impulse_of_base();
-        let drive = self.engine.drive_mut().clone();
+        // Other drives change only in the steps of the engine, which brings them back itself.
+        let steered = D::STEERED.then(|| self.engine.drive_mut().clone());
         self.engine.drive_mut().set_target(from, duration, values);
         self.rotation.back_up(end_time);
         let mut budget = self.work_limit.budget(0, end_time);
@@ -109,7 +117,9 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
             .engine
             .advance_sampled(end_time, &mut budget, &mut self.rotation.now);
         if let Err(breakdown) = outcome {
-            *self.engine.drive_mut() = drive;
+            if let Some(drive) = steered {
+                *self.engine.drive_mut() = drive;
+            }
             self.rotation.go_back();
             return Err(refused_step(NAME, breakdown));
         }
@@ -333,7 +343,10 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
     fn restore(&mut self, state: &Self::State) -> Result<()> {
         let report_holds = state.report.is_sane() && are_sane([state.start_energy]);
         let rotation_holds = state.rotation.continues(&self.rotation.now, state.report.time);
-        if !(report_holds && rotation_holds && self.engine.fits(&state.engine, state.report.time)) {
+        let drive = &self.engine.state().drive;
+        let drive_holds = drive.continues(&state.engine.drive, state.report.time);
+        let fits = report_holds && rotation_holds && drive_holds;
+        if !(fits && self.engine.fits(&state.engine, state.report.time)) {
             return Err(Error::state(
                 "it has other numbers of disks or contacts, or numbers that no packing has",
                 "Restore states of the same scene, disk count and parameters only.",

@@ -22,6 +22,8 @@ TERMINALS = Path(fmpy.__file__).parent / "schema/fmi3/fmi3TerminalsAndIcons.xsd"
 COMPONENTS = [
     ("packing", "molecular-dynamics", "input"),
     ("packing", "molecular-dynamics", "sine"),
+    ("packing", "molecular-dynamics", "sine-fixed-bottom"),
+    ("packing", "molecular-dynamics", "random-bottom"),
     ("packing", "molecular-dynamics-located", "input"),
     ("packing", "molecular-dynamics-located", "sine"),
     ("packing", "event-driven", "input"),

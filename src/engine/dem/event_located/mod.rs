@@ -79,7 +79,8 @@ impl Stepper for EventStepper {
         &self.constants
     }
 
-    fn start<D>(&mut self, state: &mut GridState<D, Disks>) {
+    fn start<D: Drive>(&mut self, state: &mut GridState<D, Disks>) {
+        const { assert!(!D::MOVES_DISKS, "disks that a drive moves are those of velocity Verlet") };
         state.disks.remainders.fill([[0.0; 3]; 2]);
         state.disks.pairs.clear();
         state.disks.wall_contacts.clear();

@@ -7,6 +7,7 @@ pub(super) mod contacts;
 mod forces;
 mod gear;
 mod integrator;
+mod moved_disks;
 mod neighbour_list;
 mod state;
 
@@ -58,7 +59,10 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
         for (disk, mass) in disks.iter().zip(&setup.masses) {
             position.extend([disk.x, disk.y, 0.0]);
             // The moment of inertia is m R^2 / 2, the force that turns one along the surface.
-            inverse_mass.extend([1.0 / mass, 1.0 / mass, 2.0 / (mass * disk.radius)]);
+            inverse_mass.extend(match *mass {
+                0.0 => [0.0; 3], // no force moves what the drive moves
+                mass => [1.0 / mass, 1.0 / mass, 2.0 / (mass * disk.radius)],
+            });
             weight.extend([0.0, -mass * setup.gravity, 0.0]);
         }
         let length = position.len() + 2 * setup.walls.len();
@@ -89,9 +93,11 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
         &self.constants
     }
 
-    fn start<D>(&mut self, state: &mut GridState<D, Disks>) {
+    fn start<D: Drive>(&mut self, state: &mut GridState<D, Disks>) {
+        self.place_moved_disks(state, self.constants.time_of(state.steps));
         self.build_list(state);
         let sums = self.evaluate(state, 0.0);
+        self.carry_moved_disks(state, 0.0);
         let accelerations = state.disks.acceleration.iter_mut();
         for (acceleration, (force, inverse)) in accelerations.zip(self.force.iter().zip(&self.inverse_mass)) {
             *acceleration = force * inverse;
@@ -170,7 +176,11 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
 
     fn is_sane(disks: &Disks) -> bool {
         let vectors = disks.position.iter().chain(&disks.velocity).chain(&disks.acceleration);
-        are_sane(vectors.copied().chain([disks.base_force, disks.dissipated_power]))
+        are_sane(
+            vectors
+                .copied()
+                .chain([disks.base_force, disks.dissipated_power, disks.moved_power]),
+        )
     }
 
     fn fits<D>(&self, own: &Disks, state: &GridState<D, Disks>) -> bool {
@@ -215,10 +225,12 @@ impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
     ) -> Result<(), Breakdown> {
         let base_before = state.base.displacement;
         state.base = state.drive.motion(time);
+        self.place_moved_disks(state, time);
         self.build_list_if_due(state, time)?;
 
         let base_force_before = state.disks.base_force;
         let sums = self.evaluate(state, duration);
+        self.carry_moved_disks(state, duration);
         self.constants.check_overlap(sums.deepest, time)?;
         let disks = &mut state.disks;
         state.energy_input += 0.5 * (base_force_before + disks.base_force) * (state.base.displacement - base_before);
@@ -275,7 +287,7 @@ impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
     }
 
     /// Builds the neighbour list anew if a disk or the base has moved by half the margin since it was built.
-    fn build_list_if_due<D>(&mut self, state: &mut GridState<D, Disks>, time: f64) -> Result<(), Breakdown> {
+    fn build_list_if_due<D: Drive>(&mut self, state: &mut GridState<D, Disks>, time: f64) -> Result<(), Breakdown> {
         let disks = &state.disks;
         let farthest = farthest_squared(disks.positions(), &disks.positions_at_list_build);
         let base_moved = (state.base.displacement - disks.base_at_list_build).abs();
@@ -290,7 +302,7 @@ impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
         Ok(())
     }
 
-    fn build_list<D>(&mut self, state: &mut GridState<D, Disks>) {
+    fn build_list<D: Drive>(&mut self, state: &mut GridState<D, Disks>) {
         let (count, setup) = (self.constants.radii.len(), &self.constants.setup);
         let disks = &mut state.disks;
         disks.positions_at_list_build.clear();
@@ -310,6 +322,7 @@ impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
         self.neighbours.find_pairs(cloud, &mut disks.pairs);
         self.neighbours
             .find_wall_contacts(cloud, &setup.walls, disks.base_at_list_build, &mut disks.wall_contacts);
+        self.drop_contacts_of_the_floor::<D>(disks);
         // A closed contact whose disks have jumped apart is not in the list any more.
         state.contacts = disks.closed_contacts();
     }

@@ -34,6 +34,8 @@ pub struct Disks {
     pub base_force: f64,
     /// Power \[W\] lost in the dashpots now.
     pub dissipated_power: f64,
+    /// Power \[W\] of the disks that the drive moves on the others now, beyond that of the base that they belong to.
+    pub moved_power: f64,
 }
 
 clone_in_place!(Disks {
@@ -48,7 +50,8 @@ clone_in_place!(Disks {
     step_of_list_build,
     list_margin,
     base_force,
-    dissipated_power
+    dissipated_power,
+    moved_power
 });
 
 impl Disks {

@@ -1,5 +1,6 @@
 """docs/generated/claims.md: every claim of both papers, one row each, with its verdict and the rule of it."""
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 
@@ -7,6 +8,9 @@ from jostle_lab.statements import Statement, cell
 from jostle_lab.tables import markdown_table
 from jostle_lab.verdicts import Verdict
 from studies.claims.sections import Section
+
+ROUNDING = re.compile(r"\b\d(?:\.\d+)?e-(?:1[3-9]|[2-9]\d)\b")
+"""Numbers that are rounding: processors differ in their last bits, and so would the page."""
 
 HEAD = """# Both papers, claim by claim
 
@@ -37,7 +41,7 @@ def page(sections: Sequence[Section], missing: Sequence[str]) -> str:
         lines += ["", f"## {name}"]
         for section in part:
             lines += ["", *_section(section)]
-    return "\n".join(lines) + "\n"
+    return ROUNDING.sub("below 1e-12", "\n".join(lines) + "\n")
 
 
 def _counts(papers: Sequence[tuple[str, Sequence[Section]]]) -> str:

@@ -1,6 +1,7 @@
 """`python -m studies figure`."""
 
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -20,11 +21,11 @@ def make_figure(number: str, laboratory: Laboratory, results: Path, quick: bool,
     folder.mkdir(parents=True, exist_ok=True)  # before the work, which would be lost
     command = f"python -m studies figure {number}" + (" --quick" if quick else "")
     command += f" --seeds {seeds}" if seeds is not None else ""
-    begun, laboratory.spent = time.perf_counter(), 0.0
+    begun, counting = time.perf_counter(), replace(laboratory)
     with house_style():
-        product = maker(number)(laboratory, quick, seeds)
+        product = maker(number)(counting, quick, seeds)
         footer = (
-            f"program {laboratory.version}, {laboratory.spent:.0f} s of one processor in all; this call "
+            f"program {laboratory.version}, {counting.spent:.0f} s of one processor in all; this call "
             f"{time.perf_counter() - begun:.0f} s with {laboratory.processes} processes"
         )
         paths = write(product, folder, command, footer)

@@ -36,10 +36,15 @@ class Laboratory:
     """What is kept of the runs of a study; asked first."""
     frozen: bool = False
     """Run nothing: everything must be in the records."""
-    spent: float = field(default=0.0, init=False)
-    """Processor time of all runs asked for so far, each counted once, also of those found on disk [s]."""
     asked: dict[str, int | None] = field(default_factory=dict, init=False)
-    """Arguments of all runs asked for so far, and their seeds."""
+    """Arguments of all runs asked for so far, and their seeds; a copy by `dataclasses.replace` starts with none."""
+    _seconds: dict[str, float] = field(default_factory=dict, init=False)
+    """Processor time of each of them."""
+
+    @property
+    def spent(self) -> float:
+        """Processor time of all runs asked for so far, each counted once, also of those found on disk [s]."""
+        return sum(self._seconds.values())
 
     @cached_property
     def version(self) -> str:
@@ -55,17 +60,14 @@ class Laboratory:
         """Every run's table; those that are on disk already are read only."""
         wanted = list(dict.fromkeys(runs))
         tables: dict[Run, Table] = {}
-        new = {run for run in wanted if run.key() not in self.asked}
         for run in wanted:
             self.asked[run.key()] = run.seed
             if (kept := self._recorded(run)) is not None:
-                tables[run] = kept.table
-                self.spent += kept.seconds if run in new else 0.0
+                tables[run], self._seconds[run.key()] = kept.table, kept.seconds
         missing = [run for run in wanted if run not in tables]
         self._refuse_if_frozen(len(missing), title)
         for run, (table, seconds) in zip(missing, self._performed(missing, title), strict=True):
-            tables[run] = table
-            self.spent += seconds if run in new else 0.0
+            tables[run], self._seconds[run.key()] = table, seconds
             if self.records is not None:
                 tables[run] = self.records.add(run.key(), self.version, seconds, table).table
         return {run: tables[run] for run in wanted}
@@ -88,17 +90,11 @@ class Laboratory:
         if self.records is not None:
             kept = self.records.find(key, None if self.frozen else lambda: compute()[0])
         if kept is not None:
-            self.spent += kept.seconds
+            self._seconds[key] = kept.seconds
             return kept.table
         self._refuse_if_frozen(1, key)
-        table, seconds = compute()
-        self.spent += seconds
-        return table if self.records is None else self.records.add(key, self.version, seconds, table).table
-
-    def unrecorded(self, runs: Sequence[Run], title: str) -> tuple[list[Table], float]:
-        """Tables of runs of which no record is kept, and their processor time [s]: for what is in `computed`."""
-        done = list(self._performed(runs, title))
-        return [table for table, _ in done], sum(seconds for _, seconds in done)
+        table, self._seconds[key] = compute()
+        return table if self.records is None else self.records.add(key, self.version, self._seconds[key], table).table
 
     def _refuse_if_frozen(self, missing: int, title: str) -> None:
         if self.frozen and missing:

@@ -1,7 +1,7 @@
 """The claims of one figure: what its study says, from the record of its runs."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
@@ -47,24 +47,22 @@ def record_file(docs: Path, figure: str) -> Path:
 def section(figure: str, laboratory: Laboratory, docs: Path, compute: bool) -> tuple[Section, Product]:
     """Claims of a figure; with `compute` the runs that its record lacks are done and kept."""
     records = Records(record_file(docs, figure), single=figure not in PRECISE)
-    laboratory.records, laboratory.frozen = records, not compute
-    laboratory.spent, laboratory.asked = 0.0, {}
+    recording = replace(laboratory, records=records, frozen=not compute)
     try:
         with house_style():
-            product = maker(figure)(laboratory, False, None)
+            product = maker(figure)(recording, False, None)
     finally:
         if compute:
             records.write()
-    laboratory.records, laboratory.frozen = None, False
-    seeds = [seed for seed in laboratory.asked.values() if seed is not None]
+    seeds = [seed for seed in recording.asked.values() if seed is not None]
     found = Section(
         figure,
         product.title,
         product.statements,
         product.notes,
-        tuple(laboratory.asked),
+        tuple(recording.asked),
         _range(seeds),
-        laboratory.spent,
+        recording.spent,
         product.tables,
     )
     return found, product

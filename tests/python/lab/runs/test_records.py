@@ -80,3 +80,18 @@ def test_a_frozen_laboratory_runs_nothing(tmp_path: Path) -> None:
     assert laboratory.asked == {RUN.key(): 3}
     with pytest.raises(LabError, match="made"):
         laboratory.computed("made", lambda: (table(), 1.0))
+
+
+def test_a_run_costs_once_and_a_copy_of_the_laboratory_counts_anew(tmp_path: Path) -> None:
+    """Figures that share runs each tell the whole cost; a study that asks twice for a run tells it once."""
+    records = Records(tmp_path / "a.parquet")
+    records.add(RUN.key(), "abc", 4.0, table())
+    laboratory = Laboratory(Path("no-program"), tmp_path, show_progress=False, records=records, frozen=True)
+    for counting in (laboratory, replace(laboratory)):
+        counting.run([RUN], "first")
+        counting.run([RUN], "again")
+        assert counting.spent == 4.0
+    records.add("made", "abc", 1.0, table())
+    for _ in range(2):
+        laboratory.computed("made", lambda: (table(), 9.0))
+    assert laboratory.spent == 5.0

@@ -9,7 +9,7 @@ from jostle_lab.statistics.estimates import Estimate, Numbers
 from jostle_lab.statistics.rotation import RPM
 from jostle_lab.verdicts import Verdict, near
 from studies.thesis.packing import mean_square, stiffness
-from studies.thesis.packing.compared import Comparison
+from studies.thesis.packing.compared import QUICK_GAMMAS, Comparison
 from studies.thesis.packing.comparison_statements import distance, statements
 from studies.thesis.packing.ensemble import Ensemble, Point, hard, soft
 from studies.thesis.packing.path_statements import event_driven_statements
@@ -156,12 +156,12 @@ def test_the_laws_of_figure_3_6_are_found_where_they_are_and_not_where_they_are_
     assert other["0 < Gamma < 0.8: <omega^2> goes with a power of Gamma, fitted exponent 3.85"] is Verdict.DISAGREES
 
 
-def compared(factor: float, scatter: float) -> Comparison:
+def compared(factor: float, scatter: float, gammas: tuple[float, ...] = (2.0, 3.0, 5.0, 10.0, 20.0)) -> Comparison:
     """Event-driven dynamics that differ by a factor from molecular dynamics."""
     generator = np.random.default_rng(12)
     found, cost = {}, {}
     for k in (1e4, 1e5, 1e6):
-        for gamma in (2.0, 3.0, 5.0, 10.0, 20.0):
+        for gamma in gammas:
             common = packings(math.exp(-(math.log(gamma / 9.0) ** 2)), generator)
             for method in (MOLECULAR, RANDOM_PHASE, MOVING):
                 own = factor if method is not MOLECULAR else 1.0
@@ -209,3 +209,8 @@ def test_groups_of_disks_are_seen_in_their_histograms() -> None:
 def test_shares_near_their_ends_have_errors() -> None:
     assert share_of(1.0, 60).error == pytest.approx(0.012, abs=0.001)
     assert share_of(0.5, 100).error == pytest.approx(0.05)
+
+
+def test_the_few_gamma_of_a_quick_comparison_do() -> None:
+    stated = statements(compared(1.05, 0.05, QUICK_GAMMAS))
+    assert any("at Gamma = 10: " in s.found for s in stated)

@@ -81,10 +81,18 @@ def call(app: typer.Typer) -> None:
 
 def main() -> None:
     """Entry point."""
-    call(
-        application(
-            HELP,
-            *(demo, draw, exchanges, held_loop, step_control, sweep, ratchet_demo, torque_demo, loudspeaker),
-            lazily("studies.claims.command:claims"),
-        )
-    )
+    commands: list[Callable[..., None]] = [
+        demo,
+        draw,
+        exchanges,
+        held_loop,
+        step_control,
+        sweep,
+        ratchet_demo,
+        torque_demo,
+        loudspeaker,
+    ]
+    # A wheel holds the laboratory alone; the studies, whose records are in the source tree, are beside it there.
+    if find_spec("studies"):
+        commands.append(lazily("studies.claims.command:claims"))
+    call(application(HELP, *commands))

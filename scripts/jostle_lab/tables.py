@@ -10,7 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from jostle_lab.errors import LabError, about
+from jostle_lab.errors import LabError, about, describe_os_error
 
 Table = dict[str, NDArray[np.float64]]
 """Columns by name."""
@@ -27,6 +27,18 @@ def write_frame(path: Path, frame: pl.DataFrame) -> None:
     """Write a table of polars."""
     with _named(path):
         frame.write_csv(path)
+
+
+def replace_parquet(path: Path, frame: pl.DataFrame, draft: Path, **options: Any) -> None:
+    """Write Parquet as `draft`, in the same folder, and rename it: `path` is the old file or the new one, and whole."""
+    try:
+        frame.write_parquet(draft, **options)
+    except (OSError, pl.exceptions.PolarsError) as error:
+        draft.unlink(missing_ok=True)
+        known = about(draft, error if isinstance(error, OSError) else OSError(str(error)))
+        said = describe_os_error(known) if known.errno is not None else f"{draft} cannot be written: {error}."
+        raise LabError(f"{said} Then repeat: what is there stays.") from None
+    draft.replace(path)
 
 
 def read_table(path: Path) -> pl.DataFrame:

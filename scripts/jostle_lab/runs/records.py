@@ -14,7 +14,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from jostle_lab.errors import LabError
-from jostle_lab.tables import Table
+from jostle_lab.tables import Table, replace_parquet
 
 Fetch = Callable[[], Table]
 
@@ -114,11 +114,10 @@ class Records:
         names = set(self._kept) | set(self._asked)
         chosen = sorted(names if only is None else names & set(only))
         rows = [row for run in chosen for row in self._rows(run)]
+        frame = pl.DataFrame(rows, schema=schema(self.single), orient="row")
         self.file.parent.mkdir(parents=True, exist_ok=True)
         draft = self.file.with_name(f"_{self.file.name}.draft")
-        frame = pl.DataFrame(rows, schema=schema(self.single), orient="row")
-        frame.write_parquet(draft, compression="zstd", compression_level=19, statistics=False)
-        draft.replace(self.file)
+        replace_parquet(self.file, frame, draft, compression="zstd", compression_level=19, statistics=False)
 
     def _rows(self, run: str) -> list[tuple[Any, ...]]:
         if run in self._asked:

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import polars as pl
 
-from jostle_lab.errors import LabError, about, describe_os_error
-from jostle_lab.tables import Row
+from jostle_lab.errors import LabError
+from jostle_lab.tables import Row, replace_parquet
 
 MANY_PARTS = 50
 """Parts from which on they are joined when a sweep begins or ends."""
@@ -86,12 +86,4 @@ class Store:
     def _write(self, table: pl.DataFrame) -> None:
         parts = self._parts()
         number = int(parts[-1].stem.removeprefix("part-")) + 1 if parts else 1
-        draft = self.folder / DRAFT
-        try:
-            table.write_parquet(draft)
-        except (OSError, pl.exceptions.PolarsError) as error:
-            draft.unlink(missing_ok=True)
-            known = about(draft, error if isinstance(error, OSError) else OSError(str(error)))
-            said = describe_os_error(known) if known.errno is not None else f"{draft} cannot be written: {error}."
-            raise LabError(f"{said} Then repeat: what is there stays.") from None
-        draft.replace(self.folder / f"part-{number:08d}.parquet")
+        replace_parquet(self.folder / f"part-{number:08d}.parquet", table, self.folder / DRAFT)

@@ -31,11 +31,13 @@ def claims(
     Safe to interrupt and to repeat: finished runs are kept in results/runs.
     """
     from studies.claims.page import page
-    from studies.claims.sections import forget_others, kept, section
+    from studies.claims.sections import FOLDER, forget_others, kept, section
     from studies.registry import ON_THE_PAGE
 
     wanted = _figures(compute or [], list(ON_THE_PAGE))
     laboratory = Laboratory(locate.program(program), results / "runs", processes, progress, scheduler)
+    if wanted:
+        (docs / FOLDER).mkdir(parents=True, exist_ok=True)  # before the work, whose records would be lost
     computed = {
         figure: section(figure, laboratory, docs, compute=True)[0] for figure in ON_THE_PAGE if figure in wanted
     }

@@ -18,8 +18,8 @@ F: Z. Farkas, P. Tegzes, A. Vukics, T. Vicsek, *Transitions in the horizontal tr
 layers*, Phys. Rev. E 60, 7022 (1999). P: G. G. Peraza Mues, *Spontaneous rotation in vibrated disk packings*, doctoral
 thesis, Cinvestav Mérida, 2018. This page is generated from the records in `docs/generated/`; do not edit it.
 
-- `python -m jostle_lab claims` makes it anew from the records, without a run; `--compute 3.6` first does the runs of
-  a figure anew that its record lacks, `--compute all` those of every figure, `--scheduler` on any Dask scheduler.
+- `python -m jostle_lab claims` makes it anew from the records, without a run; `--compute 3.6` first does the runs
+  that the record of a figure lacks, `--compute all` those of every figure, `--scheduler` on any Dask scheduler.
 - A row is a number, a figure or a quantitative statement as it is printed, what was found with its standard error,
   the verdict, and the rule that gave the verdict. `partly`: a part of the statement, or of the cases.
   `open`: the errors do not tell.

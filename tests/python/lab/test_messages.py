@@ -50,6 +50,26 @@ def test_a_folder_that_cannot_be_made_is_no_traceback(command: str, fmu3: Path, 
     assert done.stderr.splitlines()[-1].startswith(f"error: {results}"), done.stderr
 
 
+def test_a_laboratory_without_the_studies_has_its_commands_all_the_same() -> None:
+    """As a wheel installs it: the studies are in the source tree alone."""
+    started = (
+        "import sys; sys.modules['studies'] = None; sys.argv[1:] = ['--help']; import jostle_lab.cli as c; c.main()"
+    )
+    done = subprocess.run([sys.executable, "-c", started], capture_output=True, text=True, check=False)
+    assert (done.returncode, "Traceback" in done.stderr) == (0, False), done.stderr
+    assert "loudspeaker" in done.stdout and "claims" not in done.stdout
+    assert "claims" in run("jostle_lab", "--help").stdout
+
+
+def test_records_that_cannot_be_kept_are_refused_before_the_work(tmp_path: Path) -> None:
+    docs, results = short_of_all(tmp_path / "taken"), tmp_path / "results"
+    words = ["--compute", "5.6", "--docs", docs, "--results", results, "--program", PROGRAM, "--no-progress"]
+    done = run("jostle_lab", "claims", *words)
+    assert (done.returncode, "Traceback" in done.stderr) == (1, False), done.stderr
+    assert done.stderr.splitlines()[-1].startswith(f"error: {docs}"), done.stderr
+    assert not results.exists()
+
+
 def test_a_tool_without_its_program_or_folder_says_so(tmp_path: Path) -> None:
     absent = run("tools", "binaries", tmp_path / "nothing")
     without_path = run("tools", "notices", "--out", tmp_path / "notices.txt", PATH="")

@@ -67,6 +67,18 @@ def test_a_damaged_record_is_named(tmp_path: Path) -> None:
         Records(tmp_path / "a.parquet")
 
 
+def test_a_full_disk_leaves_the_record_as_it_was(tmp_path: Path) -> None:
+    records = Records(tmp_path / "a.parquet")
+    records.add("one", "abc", 1.0, table()).table["x"]
+    records.write()
+    (tmp_path / "_a.parquet.draft").symlink_to("/dev/full")
+    records.add("two", "abc", 1.0, table()).table["x"]
+    with pytest.raises(LabError, match=r"No space left.*Make room.*what is there stays"):
+        records.write()
+    assert [path.name for path in tmp_path.iterdir()] == ["a.parquet"]
+    assert Records(tmp_path / "a.parquet").find("one", None) is not None
+
+
 def test_a_frozen_laboratory_runs_nothing(tmp_path: Path) -> None:
     records = Records(tmp_path / "a.parquet")
     laboratory = Laboratory(Path("no-program"), tmp_path, show_progress=False, records=records, frozen=True)

@@ -81,7 +81,6 @@ class Loudspeaker:
         self.steps_taken = 0
         self._mark = _Mark()
         self._state = np.zeros(3)
-        self._input = np.zeros(6)
         self._transitions: dict[tuple[float, float], list[list[float]]] = {}
         self._transition = self._transition_matrix()
 
@@ -169,12 +168,9 @@ class Loudspeaker:
         """
         before = self._state[1]
         phase = math.tau * self.drive_turns
-        self._input[:3] = self._state
-        self._input[3] = reaction_force + self.grains_weight
-        self._input[4] = self.voltage_amplitude * math.sin(phase)
-        self._input[5] = self.voltage_amplitude * math.cos(phase)
+        drive = (self.voltage_amplitude * math.sin(phase), self.voltage_amplitude * math.cos(phase))
+        entries = [*self._state.tolist(), reaction_force + self.grains_weight, *drive]
         # Rounded once: vector units add up in an order of their own, and grains make another run of another last bit.
-        entries = self._input.tolist()
         self._state = np.array([math.fsum(map(mul, row, entries)) for row in self._transition])
         self.steps_taken += 1
         return float(-reaction_force * (self._state[1] - before))

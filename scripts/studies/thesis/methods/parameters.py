@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from jostle_lab.plots.curves import draw_curve
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.programs import output_of
 from jostle_lab.runs.laboratory import Laboratory
@@ -111,16 +112,7 @@ def draw(squares: dict[tuple[float, float], Estimate]) -> Figure:
     panel = figure.subplots()
     for damping, style, colour in zip(DAMPINGS, ("o-", "s--"), ("black", "0.5"), strict=True):
         points = [squares[damping, g] for g in GAMMAS]
-        panel.errorbar(
-            GAMMAS,
-            [p.mean for p in points],
-            yerr=[p.error for p in points],
-            fmt=style,
-            color=colour,
-            ms=4,
-            capsize=2,
-            label=rf"$\gamma_n$ = {damping:g} kg/s",
-        )
+        draw_curve(panel, GAMMAS, points, rf"$\gamma_n$ = {damping:g} kg/s", fmt=style, color=colour)
     panel.set(xscale="log", yscale="log", xlabel=r"$\Gamma$", ylabel=r"$\langle\bar\omega^2\rangle$ [RPM$^2$]")
     panel.legend()
     return figure

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from jostle_lab.plots.curves import draw_curve
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product
@@ -73,17 +74,9 @@ def draw(compared: Comparison) -> Figure:
             _draw_curves(mosaic, compared, method, stiffness)
     if compared.long:
         points = [e.estimate("mean_square") for e in compared.long.values()]
-        style: dict[str, Any] = {
-            "fmt": "kx-.",
-            "ms": 4,
-            "lw": 0.8,
-            "capsize": 1.5,
-            "label": "ED, 200 s, $k_n = 10^4$ N/m",
-        }
+        label = "ED, 200 s, $k_n = 10^4$ N/m"
         for name in ("linear", "log"):
-            mosaic[name].errorbar(
-                list(compared.long), [p.mean for p in points], yerr=[p.error for p in points], **style
-            )
+            draw_curve(mosaic[name], list(compared.long), points, label, fmt="x-.", color="black")
     for name in ("log", "ratio"):
         ticks = sorted({g for _, _, g in compared.found})
         mosaic[name].set_xscale("log")
@@ -108,12 +101,12 @@ def draw(compared: Comparison) -> Figure:
 def _draw_curves(mosaic: dict[str, Axes], compared: Comparison, method: Method, stiffness: float) -> None:
     marker, colour = SYMBOLS[stiffness]
     gammas = compared.gammas(stiffness)
-    x = np.array(gammas) * (1.0 + 0.012 * (STIFFNESSES.index(stiffness) - 1))
-    style = {"marker": marker, "color": colour, "ms": 4, "lw": 1.0, "elinewidth": 0.7, "capsize": 1.5, **LINES[method]}
+    x = [g * (1.0 + 0.012 * (STIFFNESSES.index(stiffness) - 1)) for g in gammas]
+    style = {"marker": marker, "color": colour, "lw": 1.0, **LINES[method]}
     label = rf"{method.name}, $k_n = 10^{{{round(np.log10(stiffness))}}}$ N/m"
     points = [compared.found[method, stiffness, g].estimate("mean_square") for g in gammas]
     for name in ("linear", "log"):
-        mosaic[name].errorbar(x, [p.mean for p in points], yerr=[p.error for p in points], label=label, **style)
+        draw_curve(mosaic[name], x, points, label, **style)
     if method is not MOLECULAR:
         ratios = [compared.ratio(method, stiffness, g) for g in gammas]
-        mosaic["ratio"].errorbar(x, [r.mean for r in ratios], yerr=[r.error for r in ratios], label=label, **style)
+        draw_curve(mosaic["ratio"], x, ratios, label, **style)

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from jostle_lab.plots.curves import draw_curve
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Statement
@@ -16,7 +17,8 @@ from studies.thesis.packing.ensemble import GAMMAS, Ensemble, Point, effort, obs
 from studies.thesis.packing.scaling import Fitted, break_point, critical_exponent, exponent
 
 STIFFNESS = 1e4
-QUICK_GAMMAS = (0.3, 0.5, 0.8, 1.0, 1.5, 3.0, 8.0, 20.0)
+QUICK_GAMMAS = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.5, 3.0, 5.0, 8.0, 12.0, 20.0, 29.0)
+"""Three or more in each window of a fit."""
 LOW, MIDDLE, HIGH = (0.0, 0.8), (1.0, 10.0), (12.0, 29.0)
 """Windows of Gamma of P's two fits, and ours of the decline."""
 PRINTED = {"low": 3.85, "middle": 0.99}
@@ -90,14 +92,14 @@ def draw(found: Points) -> Figure:
     """Linear and logarithmic, and the middle region in the variables of its law."""
     figure = Figure(figsize=(WIDTH, 6.4), layout="constrained")
     mosaic = figure.subplot_mosaic([["linear", "middle"], ["log", "log"]], height_ratios=[1.0, 1.5])
-    gammas = np.array(list(found))
+    gammas = list(found)
     square = [e.estimate("mean_square") for e in found.values()]
     lasting = [e.estimate("persistent") for e in found.values()]
-    whole = {"fmt": "o", "color": "black", "ms": 3.5, "capsize": 1.5, "elinewidth": 0.7, "label": "whole record"}
-    part = {**whole, "fmt": "^", "color": "0.45", "mfc": "white", "label": "lasting part"}
+    whole = {"fmt": "o", "color": "black", "ms": 3.5}
+    part = {**whole, "fmt": "^", "color": "0.45", "mfc": "white"}
     for panel in (mosaic["linear"], mosaic["log"]):
-        _bars(panel, gammas, square, whole)
-        _bars(panel, gammas, lasting, part)
+        draw_curve(panel, gammas, square, "whole record", **whole)
+        draw_curve(panel, gammas, lasting, "lasting part", **part)
         panel.set(xlabel=r"$\Gamma$", ylabel=r"$\langle\bar\omega^2\rangle$ [RPM$^2$]")
     mosaic["linear"].set_ylim(0.0, None)
     mosaic["linear"].legend()
@@ -109,7 +111,7 @@ def draw(found: Points) -> Figure:
     inside = [g for g in found if MIDDLE[0] < g <= MIDDLE[1]]
     beyond = [found[g].estimate("mean_square") for g in inside]
     shifted = [Estimate(e.mean - at.mean, float(np.hypot(e.error, at.error))) for e in beyond]
-    _bars(panel, np.array(inside) - 1.0, shifted, {**whole, "label": "whole record"})
+    draw_curve(panel, [g - 1.0 for g in inside], shifted, "whole record", **whole)
     guide = np.array([0.2, 9.0])
     panel.plot(guide, shifted[-1].mean * (guide / 9.0) ** PRINTED["middle"], "k-.", lw=1.0, label="slope 0.99 (P)")
     fit = middle_exponent(found)
@@ -118,10 +120,6 @@ def draw(found: Points) -> Figure:
     panel.set_ylabel(r"$\langle\bar\omega^2\rangle - \omega_c$ [RPM$^2$]")
     panel.legend()
     return figure
-
-
-def _bars(panel: Axes, x: Numbers, points: Sequence[Estimate], style: dict[str, Any]) -> None:
-    panel.errorbar(x, [p.mean for p in points], yerr=[p.error for p in points], **style)
 
 
 def _laws(panel: Axes, found: Points) -> None:

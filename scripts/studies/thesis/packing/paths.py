@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from jostle_lab.plots.style import CLOCKWISE, COUNTER_CLOCKWISE, WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.runs.run import Run
-from jostle_lab.statements import Product
+from jostle_lab.statements import Product, Statement
 from jostle_lab.statistics.estimates import Numbers
 from jostle_lab.statistics.rotation import RPM
 from jostle_lab.tables import Table
@@ -70,13 +70,8 @@ def molecular_dynamics(laboratory: Laboratory, quick: bool, _seeds: int | None =
     frames, frame = (10, 1) if quick else (30, 10)
     shakings = [Shaking(MOLECULAR, g, 2 * frame, frame, frames) for g in SOFT_GAMMAS]
     found = _found(laboratory, shakings, "figure 3.5")
-    return Product(
-        "Figure 3.5: angular paths by molecular dynamics",
-        [row for g, paths in found.items() for row in _rows(g, paths)],
-        draw(found, (2, 3)),
-        molecular_statements(found),
-        _notes("molecular dynamics", shakings[0]),
-    )
+    notes = _notes("molecular dynamics", shakings[0])
+    return _product("Figure 3.5: angular paths by molecular dynamics", found, 2, molecular_statements(found), notes)
 
 
 def event_driven(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Product:
@@ -84,13 +79,16 @@ def event_driven(laboratory: Laboratory, quick: bool, _seeds: int | None = None)
     frames, frame = (12, 5) if quick else (30, 20)
     shakings = [Shaking(RANDOM_PHASE, g, 2 * frame, frame, frames) for g in HARD_GAMMAS]
     found = _found(laboratory, shakings, "figure 3.10")
-    return Product(
-        "Figure 3.10: angular paths by event-driven dynamics",
-        [row for g, paths in found.items() for row in _rows(g, paths)],
-        draw(found, (3, 3)),
-        event_driven_statements(found),
-        _notes("event-driven dynamics, fixed bottom with a random phase", shakings[0]),
-    )
+    notes = _notes("event-driven dynamics, fixed bottom with a random phase", shakings[0])
+    title = "Figure 3.10: angular paths by event-driven dynamics"
+    return _product(title, found, 3, event_driven_statements(found), notes)
+
+
+def _product(
+    title: str, found: dict[float, Paths], lines: int, statements: list[Statement], notes: list[str]
+) -> Product:
+    rows = [row for g, paths in found.items() for row in _rows(g, paths)]
+    return Product(title, rows, draw(found, (lines, 3)), statements, notes)
 
 
 def _notes(method: str, shaking: Shaking) -> list[str]:

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from jostle_lab.plots.curves import draw_curve
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Statement
@@ -60,17 +61,7 @@ def draw(found: Points) -> Figure:
     for panel, scale in zip(figure.subplots(1, 2), ("linear", "log"), strict=True):
         for quantity, style, colour, label in kinds:
             points = [e.estimate(quantity) for e in found.values()]
-            panel.errorbar(
-                gammas,
-                [p.mean for p in points],
-                yerr=[p.error for p in points],
-                fmt=style,
-                color=colour,
-                ms=3.5,
-                lw=0.9,
-                capsize=1.5,
-                label=label,
-            )
+            draw_curve(panel, gammas, points, label, fmt=style, color=colour, ms=3.5)
         for place in (1.0, 10.0):
             panel.axvline(place, color="0.7", lw=0.7, ls=":")
         panel.set(xscale=scale, yscale=scale, xlabel=r"$\Gamma$")

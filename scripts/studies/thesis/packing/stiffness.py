@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from jostle_lab.plots.curves import draw_curve
 from jostle_lab.plots.style import WIDTH
 from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product, Statement
@@ -63,19 +64,8 @@ def draw(found: Found) -> Figure:
         for k, (marker, line, colour) in MARKERS.items():
             at = gammas(found, k)
             points = [found[k, g].estimate("mean_square") for g in at]
-            panel.errorbar(
-                at,
-                [p.mean for p in points],
-                yerr=[p.error for p in points],
-                marker=marker,
-                ls=line,
-                color=colour,
-                ms=3.5,
-                lw=0.9,
-                capsize=1.5,
-                mfc="white",
-                label=rf"$k_n = 10^{{{round(np.log10(k))}}}$ N/m",
-            )
+            style = {"marker": marker, "ls": line, "color": colour, "ms": 3.5, "mfc": "white"}
+            draw_curve(panel, at, points, rf"$k_n = 10^{{{round(np.log10(k))}}}$ N/m", **style)
         panel.set(xscale=scale, yscale=scale, xlabel=r"$\Gamma$")
         panel.axvline(1.0, color="0.7", lw=0.7, ls=":")
     figure.axes[0].set_ylabel(r"$\langle\bar\omega^2\rangle$ [RPM$^2$]")

@@ -8,6 +8,14 @@ import numpy as np
 from jostle_lab.statistics.estimates import Estimate, Numbers
 
 
+def log_slope(x: Sequence[float] | Numbers, y: Numbers) -> Numbers:
+    """Slope of ln y against ln x by least squares, along the last axis of y; NaN where a y is not positive."""
+    u = np.log(x) - np.mean(np.log(x))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        v = np.log(y)
+    return np.asarray(np.sum(u * v, axis=-1) / np.sum(u * u))
+
+
 def power_law(x: Numbers, y: Numbers) -> Estimate:
     """Exponent b of y = a x^b by least squares in the logarithms; its standard error is that of the scatter about it.
 
@@ -16,7 +24,7 @@ def power_law(x: Numbers, y: Numbers) -> Estimate:
     if len(x) < 2:
         return Estimate(math.nan, math.nan)
     u, v = np.log(x) - np.log(x).mean(), np.log(y) - np.log(y).mean()
-    exponent = float(u @ v / (u @ u))
+    exponent = float(log_slope(x, y))
     if len(x) == 2:
         return Estimate(exponent, math.nan)
     rest = v - exponent * u

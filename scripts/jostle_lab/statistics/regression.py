@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jostle_lab.statistics.estimates import Estimate
+from jostle_lab.statistics.power_law import log_slope
 from jostle_lab.statistics.rotation import nearest_neighbours_regression, nearest_neighbours_resampled
 
 Numbers = NDArray[np.float64]
@@ -107,7 +108,7 @@ def slope(x: Numbers, y: Numbers, range_: Range) -> float:
     inside = within(x, range_) & (y > 0.0)
     if np.count_nonzero(inside) < 2:
         return math.nan
-    return float(np.polyfit(np.log(x[inside]), np.log(y[inside]), 1)[0])
+    return float(log_slope(x[inside], y[inside]))
 
 
 class BrokenLine:

@@ -164,7 +164,7 @@ def test_fields_hold_all_mass_and_the_transport(laboratory: Laboratory) -> None:
     """In every window the whole mass; momenta averaged over the period are the transport velocity of the same run."""
     case = Case(3.0, 0.1, 25.0, 20, seconds=5.0)
     runs = [fields.field_run(case, seed) for seed in (1, 2)]
-    found = fields.gather(laboratory.unrecorded(runs, "fields")[0])
+    found = fields.gather(list(laboratory.run(runs, "fields").values()))
     np.testing.assert_allclose(found.mass.sum(axis=(2, 3)), 1.0, rtol=1e-9)
     whole = 100.0 * observe_runs(laboratory, {case: 2}, "the same").values(case, "transport_velocity")
     np.testing.assert_allclose(found.momentum[..., 0].sum(axis=(2, 3)).mean(axis=1), whole, rtol=1e-6)

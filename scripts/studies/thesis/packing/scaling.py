@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jostle_lab.statistics.estimates import Estimate, Numbers, bootstrap
+from jostle_lab.statistics.power_law import log_slope
 
 RESAMPLES = 1000
 
@@ -53,19 +54,11 @@ def fitted(samples: Sequence[Numbers], parameter: Callable[[Numbers], Numbers]) 
     return Fitted(value, float(resamples.std(ddof=1)), float(low), float(high))
 
 
-def slope(x: Sequence[float] | Numbers, y: Numbers) -> Numbers:
-    """Slope of ln y against ln x by least squares, along the last axis of y; NaN where a y is not positive."""
-    u = np.log(x) - np.mean(np.log(x))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        v = np.log(y)
-    return np.asarray(np.sum(u * v, axis=-1) / np.sum(u * u))
-
-
 def exponent(gammas: Sequence[float], samples: Sequence[Numbers]) -> Fitted:
     """Exponent of a power of Gamma; raises ValueError with fewer than three points, which have no scatter."""
     if len(gammas) < 3:
         raise ValueError("A line through two points has no error of its slope; give three or more.")
-    return fitted(samples, lambda means: slope(gammas, means))
+    return fitted(samples, lambda means: log_slope(gammas, means))
 
 
 def critical_exponent(gammas: Sequence[float], samples: Sequence[Numbers], at: Numbers, critical: float) -> Fitted:
@@ -73,7 +66,7 @@ def critical_exponent(gammas: Sequence[float], samples: Sequence[Numbers], at: N
     beyond = np.array(gammas) - critical
 
     def parameter(means: Numbers) -> Numbers:
-        return slope(beyond, means[..., :-1] - means[..., -1:])
+        return log_slope(beyond, means[..., :-1] - means[..., -1:])
 
     return fitted([*samples, at], parameter)
 

@@ -46,7 +46,7 @@ def figure(
     ] = False,
     results: Annotated[Path, typer.Option(help="Folder that gets a folder for each figure.")] = Path("results"),
     seeds: Annotated[
-        int | None, typer.Option(min=2, max=1000, help="Packings or seeds of each point; each figure has its own.")
+        int | None, typer.Option(min=2, max=100_000, help="Packings or seeds of each point; each figure has its own.")
     ] = None,
     processes: options.ProcessesOption = 2,
     program: options.ProgramOption = None,

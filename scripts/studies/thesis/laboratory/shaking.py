@@ -39,8 +39,8 @@ class Effort:
         return f"loudspeaker, {self.packings} packings, {len(self.amplitudes)} amplitudes, {self.seconds} s each"
 
 
-SCHEDULE = Effort("schedule", 9, 12, LISTED)
-"""What the record holds. P has 25 packings: raise the number and compute again, finished packings are kept."""
+SCHEDULE = Effort("schedule", 25, 12, LISTED)
+"""What the record holds: as many packings as in P. Finished ones are kept if the number is raised."""
 LONGER = Effort("longer", 1, 120, PATHS, paths=True)
 """A record that shows what the length of a record does, and the paths of Fig. 3.1."""
 QUICK = Effort("quick", 2, 8, (1.0, 0.6, 0.35, 0.2, 0.12, 0.06), paths=True)

@@ -12,7 +12,7 @@ from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product
 from studies.thesis.packing.compared import Comparison, Key, compare
 from studies.thesis.packing.comparison_statements import statements
-from studies.thesis.packing.ensemble import STIFFNESSES, effort
+from studies.thesis.packing.ensemble import EVENT_PACKINGS, STIFFNESSES, effort
 from studies.thesis.packing.runs import MOLECULAR, MOVING, RANDOM_PHASE, Method
 
 SYMBOLS = {1e4: ("o", "#1f5fa8"), 1e5: ("s", "#d07a1f"), 1e6: ("^", "#2e7d4f")}
@@ -37,7 +37,10 @@ def make(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Prod
             effort(points),
             "errors by drawing packings, ratios packing by packing over records of the same length",
             *(
-                [f"event-driven at k_n = 1e4 N/m at length: {effort([e.point for e in compared.long.values()])}"]
+                [
+                    f"event-driven at k_n = 1e4 N/m at length: {effort([e.point for e in compared.long.values()])} "
+                    "(the short ones below Gamma = 5, where P's 1000 s take another 50 minutes of one processor)"
+                ]
                 if compared.long
                 else []
             ),
@@ -74,7 +77,7 @@ def draw(compared: Comparison) -> Figure:
             _draw_curves(mosaic, compared, method, stiffness)
     if compared.long:
         points = [e.estimate("mean_square") for e in compared.long.values()]
-        label = "ED, 200 s, $k_n = 10^4$ N/m"
+        label = rf"ED, {EVENT_PACKINGS} packings, $k_n = 10^4$ N/m"
         for name in ("linear", "log"):
             draw_curve(mosaic[name], list(compared.long), points, label, fmt="x-.", color="black")
     for name in ("log", "ratio"):

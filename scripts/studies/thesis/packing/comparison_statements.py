@@ -8,7 +8,7 @@ from jostle_lab.statements import Statement
 from jostle_lab.statistics.estimates import Estimate, Numbers, bootstrap
 from jostle_lab.verdicts import above, every, near, rises, true
 from studies.thesis.packing.compared import Comparison
-from studies.thesis.packing.ensemble import STIFFNESSES
+from studies.thesis.packing.ensemble import EVENT_PACKINGS, STIFFNESSES
 from studies.thesis.packing.runs import MOLECULAR, MOVING, RANDOM_PHASE, Method
 from studies.thesis.packing.scaling import extremum
 
@@ -80,7 +80,11 @@ def _maxima(compared: Comparison) -> list[Statement]:
         found.append(_maximum(name, gammas, [e.mean_square for e in ensembles]))
     if compared.long:
         ensembles = list(compared.long.values())
-        found.append(_maximum("ED, 200 s, k_n = 1e4", list(compared.long), [e.mean_square for e in ensembles]))
+        found.append(
+            _maximum(
+                f"ED, {EVENT_PACKINGS} packings, k_n = 1e4", list(compared.long), [e.mean_square for e in ensembles]
+            )
+        )
     return found
 
 

@@ -15,7 +15,7 @@ from jostle_lab.runs.run import Run
 from jostle_lab.statistics.estimates import Estimate, Numbers, bootstrap_mean
 from jostle_lab.statistics.rotation import RPM
 from jostle_lab.tables import Table
-from studies.thesis.packing.runs import DISKS, MOLECULAR, RANDOM_PHASE, Method, shaken
+from studies.thesis.packing.runs import DISKS, FREQUENCY, MOLECULAR, RANDOM_PHASE, Method, shaken
 
 GAMMAS = (
     *(0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0, 3.0, 4.0, 5.0, 6.5, 8.0),
@@ -32,9 +32,13 @@ SOFT_GAMMAS = {
     1e6: (0.4, 0.8, 0.9, 1.0, 1.2, 2.0, 5.0, 10.0, 20.0),
 }
 """Of molecular dynamics, by stiffness: the stiffer, the more a second costs."""
-PACKINGS = {1e4: 25, 1e5: 25, 1e6: 8}
+PACKINGS = {1e4: 25, 1e5: 25, 1e6: 25}
 """By stiffness."""
 EVENT_PACKINGS = 100
+EVENT_LENGTH = 1000
+"""As in P [s]."""
+EVENT_LENGTH_LOW = 200
+"""Below Gamma = 5, where a second costs most [s]."""
 
 
 @dataclass(frozen=True)
@@ -50,10 +54,12 @@ class Point:
     observed: int
     """[s]."""
     packings: int
+    frequency: float = FREQUENCY
+    """[Hz]."""
 
     def run(self, seed: int) -> Run:
         """The run of a packing, other parameters as in P 3.2 (the scene's defaults)."""
-        settings = shaken(self.method, self.stiffness, self.gamma, seed, self.settling)
+        settings = shaken(self.method, self.stiffness, self.gamma, seed, self.settling, self.frequency)
         whole = float(self.settling + self.observed)
         return Run("packing", self.method.engine, whole, whole, settings)
 
@@ -76,8 +82,8 @@ def hard(method: Method, stiffness: float, gamma: float) -> Point:
 
 
 def hard_at_length(gamma: float) -> Point:
-    """Event-driven dynamics of as many packings as P has, for a fifth of its 1000 s."""
-    return Point(RANDOM_PHASE, 1e4, gamma, 10, 200, EVENT_PACKINGS)
+    """Event-driven dynamics of as many packings as P has, and for as long, but at low Gamma."""
+    return Point(RANDOM_PHASE, 1e4, gamma, 10, EVENT_LENGTH if gamma >= 5.0 else EVENT_LENGTH_LOW, EVENT_PACKINGS)
 
 
 def soft_points(stiffness: float) -> list[Point]:

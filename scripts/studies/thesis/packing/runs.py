@@ -8,9 +8,9 @@ FREQUENCY = 80.0
 DISKS = 60
 
 
-def amplitude(gamma: float) -> float:
+def amplitude(gamma: float, frequency: float = FREQUENCY) -> float:
     """A [m] of dimensionless acceleration Gamma = A omega_b^2 / g."""
-    return gamma * GRAVITY / (math.tau * FREQUENCY) ** 2
+    return gamma * GRAVITY / (math.tau * frequency) ** 2
 
 
 @dataclass(frozen=True)
@@ -32,13 +32,15 @@ RANDOM_PHASE = Method("event-driven", 1, "ED, random phase")
 MOVING = Method("event-driven", 2, "ED, moving base")
 
 
-def shaken(method: Method, stiffness: float, gamma: float, seed: int, start: int) -> tuple[tuple[str, float], ...]:
+def shaken(
+    method: Method, stiffness: float, gamma: float, seed: int, start: int, frequency: float = FREQUENCY
+) -> tuple[tuple[str, float], ...]:
     """Parameters of a packing whose rotation is measured from `start` [s] on; others are those of P 3.2."""
     return (
         ("seed", seed),
         ("gravity", GRAVITY),
-        ("drive.amplitude", amplitude(gamma)),
-        ("drive.frequency", FREQUENCY),
+        ("drive.amplitude", amplitude(gamma, frequency)),
+        ("drive.frequency", frequency),
         ("contact.normal_stiffness", stiffness),
         ("measure.start", start),
         *method.settings(),

@@ -61,6 +61,11 @@ def exponent(gammas: Sequence[float], samples: Sequence[Numbers]) -> Fitted:
     return fitted(samples, lambda means: log_slope(gammas, means))
 
 
+def geometric_exponent(gammas: Sequence[float], samples: Sequence[Numbers]) -> Fitted:
+    """Exponent of the geometric mean over packings, in which the fastest few do not prevail."""
+    return fitted([np.log(values) for values in samples], lambda means: log_slope(gammas, np.exp(means)))
+
+
 def critical_exponent(gammas: Sequence[float], samples: Sequence[Numbers], at: Numbers, critical: float) -> Fitted:
     """Exponent of (y - y_c) against (Gamma - Gamma_c), `at` the packings' values at Gamma_c (P 3.2)."""
     beyond = np.array(gammas) - critical

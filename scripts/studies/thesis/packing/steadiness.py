@@ -23,9 +23,9 @@ STILL, STEADY = 0.05, 0.95
 BINS = 20
 
 
-def make(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Product:
+def make(laboratory: Laboratory, quick: bool, seeds: int | None = None) -> Product:
     """Figure 3.7."""
-    found = ensembles(laboratory, quick, "figure 3.7")
+    found = ensembles(laboratory, quick, "figure 3.7", seeds)
     return Product(
         "Figure 3.7: correlation of angle and time, and adjusted deviation, against Gamma",
         [_row(g, found) for g in found],
@@ -136,9 +136,9 @@ def _abrupt(found: Points) -> Statement:
     )
 
 
-def histograms(laboratory: Laboratory, quick: bool, _seeds: int | None = None) -> Product:
+def histograms(laboratory: Laboratory, quick: bool, seeds: int | None = None) -> Product:
     """Figure 3.8."""
-    found = ensembles(laboratory, quick, "figure 3.8")
+    found = ensembles(laboratory, quick, "figure 3.8", seeds)
     points = {g: found[g].point if g in found else soft(STIFFNESS, g) for g in SHOWN if g in found or not quick}
     rho = {p.gamma: values for p, values in correlations(laboratory, points.values(), "figure 3.8").items()}
     rows = [

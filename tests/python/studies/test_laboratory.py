@@ -137,7 +137,7 @@ def test_the_regression_is_against_the_gamma_that_was_measured():
     off = dict(PRINTED.table) | {"gamma_measured": 1.2 * PRINTED["gamma_true"]}
     breaks = [s.verdict for s in on_squares(Data(off, SCHEDULE)) if s.printed == "the exponent changes at Gamma = 1.6"]
     assert breaks == [Verdict.DISAGREES, Verdict.AGREES], "as measured, in truth"
-    bent = dict(PRINTED.table) | {"gamma_measured": PRINTED["gamma_true"] ** 1.5}
+    bent = dict(PRINTED.table) | {"gamma_measured": THRESHOLD * (PRINTED["gamma_true"] / THRESHOLD) ** 2}
     (measured, true) = (s for s in on_squares(Data(bent, SCHEDULE)) if s.printed.startswith("1.6 <"))
     assert (measured.verdict, true.verdict) == (Verdict.DISAGREES, Verdict.AGREES)
 

@@ -132,6 +132,30 @@ def test_the_regression_is_of_what_was_measured():
     assert exponents == pytest.approx([1.0, 1.6], abs=0.06)
 
 
+def test_the_regression_is_against_the_gamma_that_was_measured():
+    """Accelerometers that read a fifth too much move the break, and sensors with an exponent of their own the slope."""
+    off = dict(PRINTED.table) | {"gamma_measured": 1.2 * PRINTED["gamma_true"]}
+    breaks = [s.verdict for s in on_squares(Data(off, SCHEDULE)) if s.printed == "the exponent changes at Gamma = 1.6"]
+    assert breaks == [Verdict.DISAGREES, Verdict.AGREES], "as measured, in truth"
+    bent = dict(PRINTED.table) | {"gamma_measured": THRESHOLD * (PRINTED["gamma_true"] / THRESHOLD) ** 2}
+    (measured, true) = (s for s in on_squares(Data(bent, SCHEDULE)) if s.printed.startswith("1.6 <"))
+    assert (measured.verdict, true.verdict) == (Verdict.DISAGREES, Verdict.AGREES)
+
+
+def test_slopes_called_ours_are_fitted_and_those_of_the_thesis_are_its_own():
+    """Lines are drawn with the slopes that their labels say: on other data ours are others, and P's the same."""
+    for data, expected in ((PRINTED, (3.94, 1.0)), (made((3.0, 0.5)), (3.0, 0.5))):
+        figure = regression.draw({eye: data.regression("square", eye) for eye in EYES})
+        slopes = {"ours": [], "P": []}
+        for line in figure.axes[1].get_lines():
+            name = str(line.get_label())
+            if "slope" in name:
+                x, y = np.log(line.get_xdata()), np.log(line.get_ydata())
+                slopes[name.partition(",")[0]].append((y[-1] - y[0]) / (x[-1] - x[0]))
+        assert slopes["P"] == pytest.approx([3.94, 1.0], abs=1e-9)
+        assert slopes["ours"] == pytest.approx(expected, abs=0.15)
+
+
 def test_packings_and_disks_give_the_same_regression_unless_gamma_is_shared():
     assert regression.equivalence(PRINTED).verdict is Verdict.AGREES
     table = dict(PRINTED.table) | {"gamma_measured": np.round(PRINTED["gamma_measured"], 1)}

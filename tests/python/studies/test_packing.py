@@ -5,14 +5,17 @@ import math
 import numpy as np
 import pytest
 
+from jostle_lab.runs.laboratory import Laboratory
+from jostle_lab.runs.limits import parameters
 from jostle_lab.statistics.estimates import Estimate, Numbers
-from jostle_lab.statistics.rotation import RPM
+from jostle_lab.statistics.rotation import RPM, rotation
 from jostle_lab.verdicts import Verdict, near
-from studies.thesis.packing import mean_square, stiffness
+from studies.thesis.packing import comparison_statements, mean_square, path_statements, stiffness
 from studies.thesis.packing.compared import QUICK_GAMMAS, Comparison
 from studies.thesis.packing.comparison_statements import distance, statements
 from studies.thesis.packing.ensemble import Ensemble, Point, hard, soft
 from studies.thesis.packing.path_statements import event_driven_statements
+from studies.thesis.packing.paths import Shaking
 from studies.thesis.packing.paths_found import Paths, share_of
 from studies.thesis.packing.runs import MOLECULAR, MOVING, RANDOM_PHASE, shaken
 from studies.thesis.packing.scaling import break_point, critical_exponent, exponent, extremum
@@ -66,6 +69,38 @@ def test_a_velocity_that_changes_for_good_is_a_rearrangement() -> None:
     turned = even(np.linspace(-5.0, 5.0, 60)) + np.random.default_rng(4).normal(0.0, 0.3, (31, 60))
     turned[15:, :4] += np.outer(np.arange(16) * 20.0, np.full(4, 3.0 * RPM))
     assert paths(turned).changed().mean == 4.0
+
+
+def test_rearrangements_are_of_some_disks_and_of_fewer_than_ten() -> None:
+    noise = np.random.default_rng(14).normal(0.0, 0.3, (31, 60))
+    walk = np.cumsum(np.random.default_rng(3).normal(0.0, 20.0, (31, 60)), axis=0)
+
+    def of_disks(count: int) -> Paths:
+        turned = even(np.linspace(-5.0, 5.0, 60)) + noise
+        turned[15:, :count] += np.outer(np.arange(16) * 20.0, np.full(count, 3.0 * RPM))
+        return paths(turned)
+
+    def judged(changing: Paths) -> Verdict:
+        return path_statements._rearrangements("3.3", {2.0: paths(even(np.full(60, 3.0))), 8.0: changing}).verdict
+
+    assert judged(of_disks(4)) is Verdict.AGREES
+    assert judged(of_disks(12)) is Verdict.PARTLY, "not fewer than ten"
+    assert judged(paths(walk)) is Verdict.PARTLY, "none at all"
+
+
+def test_steadiness_is_that_of_angles_once_a_second_whatever_the_picture_shows(laboratory: Laboratory) -> None:
+    """P defines sigma_a on 1 s. On the 2 s or 5 s from point to point of a picture it would be another number."""
+    fine, coarse = Shaking(RANDOM_PHASE, 20.0, 5, 1, 40), Shaking(RANDOM_PHASE, 20.0, 5, 5, 8)
+    tables = laboratory.run([fine.run(), coarse.run()], "frames")
+    found, sparse = fine.paths(tables[fine.run()]), coarse.paths(tables[coarse.run()])
+    once_a_second = float(np.mean(rotation(found.angles, 1.0).adjusted_deviation))
+    every_fifth = float(np.mean(rotation(found.angles[::5], 5.0).adjusted_deviation))
+    assert found.adjusted_deviation == pytest.approx(once_a_second, rel=1e-6)
+    assert sparse.adjusted_deviation == pytest.approx(once_a_second, rel=1e-6)
+    assert abs(every_fifth - once_a_second) > 0.05
+    # No figure sets another interval than the program's own.
+    assert "measure.interval" not in dict(fine.run().settings)
+    assert parameters(laboratory.program, fine.run())["measure.interval"][0] < 1.0
 
 
 def test_the_same_way_for_good_is_told_from_chance() -> None:
@@ -156,13 +191,15 @@ def test_the_laws_of_figure_3_6_are_found_where_they_are_and_not_where_they_are_
     assert other["0 < Gamma < 0.8: <omega^2> goes with a power of Gamma, fitted exponent 3.85"] is Verdict.DISAGREES
 
 
-def compared(factor: float, scatter: float, gammas: tuple[float, ...] = (2.0, 3.0, 5.0, 10.0, 20.0)) -> Comparison:
-    """Event-driven dynamics that differ by a factor from molecular dynamics."""
+def compared(
+    factor: float, scatter: float, gammas: tuple[float, ...] = (2.0, 3.0, 5.0, 10.0, 20.0), spread: float = 0.2
+) -> Comparison:
+    """Event-driven dynamics that differ by a factor from molecular dynamics; `spread` of the packings."""
     generator = np.random.default_rng(12)
     found, cost = {}, {}
     for k in (1e4, 1e5, 1e6):
         for gamma in gammas:
-            common = packings(math.exp(-(math.log(gamma / 9.0) ** 2)), generator)
+            common = packings(math.exp(-(math.log(gamma / 9.0) ** 2)), generator, spread)
             for method in (MOLECULAR, RANDOM_PHASE, MOVING):
                 own = factor if method is not MOLECULAR else 1.0
                 values = own * common * generator.lognormal(0.0, scatter, PACKINGS)
@@ -179,6 +216,17 @@ def test_methods_coincide_only_beyond_the_errors() -> None:
     assert coincidence(1.05, 0.05) is Verdict.AGREES
     assert coincidence(2.0, 0.05) is Verdict.DISAGREES
     assert coincidence(1.05, 2.0) is Verdict.OPEN
+
+
+def test_a_curve_that_still_rises_at_its_last_gamma_has_no_maximum_there() -> None:
+    """The made-up curve has its top at 9. Cut off at 8 its largest value is near 10 and no maximum."""
+
+    def maxima(gammas: tuple[float, ...]) -> list[Verdict]:
+        stated = comparison_statements._maxima(compared(1.0, 0.0, gammas, 0.02))
+        return [s.verdict for s in stated]
+
+    assert maxima((2.0, 3.0, 5.0, 7.0, 9.0, 12.0, 20.0)) == [Verdict.AGREES] * 3
+    assert maxima((2.0, 3.0, 5.0, 8.0)) == [Verdict.OPEN] * 3
 
 
 def test_chance_is_no_distance_between_methods() -> None:

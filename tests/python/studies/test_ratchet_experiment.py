@@ -59,6 +59,12 @@ def test_the_slope_of_a_straight_line_is_that_of_the_power_law() -> None:
     assert experiment.slope(curve, 1.2, 1.6) is None
 
 
+def test_a_straight_line_through_two_points_that_move_has_no_slope() -> None:
+    curve = experiment.main_curve(made_up(1.7, 0.48, 0.0))
+    assert len(curve.between(1.72, 1.81).moving().x) == 2
+    assert experiment.slope(curve, 1.72, 1.81) is None
+
+
 def curve(means: list[float], noise: float = 0.02) -> Curve:
     generator = np.random.default_rng(5)
     points = tuple(Point(tuple(generator.normal(mean, noise, 6))) for mean in means)
@@ -69,6 +75,7 @@ def test_maxima_and_fading_flows_are_told_from_others() -> None:
     hill, slope, rise = curve([0.5, 1.0, 0.6, 0.2]), curve([1.0, 0.8, 0.5, 0.2]), curve([0.2, 0.4, 0.8, 1.0])
     assert depth.has_maximum(hill).verdict is Verdict.AGREES
     assert depth.has_maximum(slope).verdict is not Verdict.AGREES
+    assert depth.has_maximum(rise).verdict is not Verdict.AGREES
     assert depth.fades(hill).verdict is Verdict.AGREES
     assert depth.fades(slope).verdict is Verdict.AGREES
     assert depth.fades(rise).verdict is not Verdict.AGREES

@@ -77,6 +77,15 @@ def test_durations_are_judged_beside_the_counts() -> None:
     assert mirrored.verdict is Verdict.AGREES
 
 
+def test_a_duration_is_the_time_of_one_visit() -> None:
+    """Twice the visits in twice the time last as long: neither counts nor times alone are durations."""
+    counts = np.array([500.0, 1000.0, 1000.0, 2000.0])
+    found = place_with(TILTED, noisy(-9e-5, 2e-6), counts=counts, times=2e-3 * counts)
+    assert [found.duration(name).mean for name in POINTS] == pytest.approx([2e-3] * 4)
+    assert [s.verdict for s in equal_durations([found], [found])] == [Verdict.AGREES] * 3
+    assert equal_counts([found], found).verdict is Verdict.DISAGREES
+
+
 def line(law: dict[float, float], error: float, tilt: float = 0.25) -> dict[Place, Measured]:
     return {Place(tilt, a): place_with(Place(tilt, a), noisy(v, error)) for a, v in law.items()}
 
@@ -87,6 +96,8 @@ def test_onset_is_where_the_line_is_zero() -> None:
     late = {a: -2.0 * (a - 5e-5) for a in (6e-5, 8e-5, 1e-4)}
     assert onset(line(late, 1e-7)).verdict is Verdict.DISAGREES
     assert onset(line(dict.fromkeys(law, 0.0), 1e-7)).verdict is Verdict.OPEN
+    two = {a: law[a] for a in (2e-5, 4e-5)}
+    assert onset(line(two, 1e-7)).verdict is Verdict.OPEN, "a line through two points has no error"
 
 
 def test_monotonic_curves_and_others() -> None:

@@ -44,6 +44,8 @@ def _notes(effort: Effort) -> list[str]:
         "seeds of a point: from 1e4 A_b / 1e-7 m + 100 theta_T / 0.01 pi + 1 on, so that points are independent; error "
         "bars: standard error from pair to pair",
         "points at which a contact opened in some run are left out of all statements, as in the thesis",
+        "settled after first runs had been seen: how many seeds there are without tilt, that their mean is held "
+        "against the fastest rotation, and the line that gives the onset; other seeds for all would take an hour",
     ]
 
 

@@ -147,9 +147,10 @@ def curves(
     wedges: Mapping[Wedge, tuple[float, ...]],
     effort: Effort,
     seed_stride: int = 0,
+    first_seed: int = 1,
 ) -> dict[Wedge, Curve]:
-    """A curve for each wedge, at its own tilts [degrees]; wedge number i has seeds from `seed_stride` i + 1 on."""
-    seeds = range(1, effort.seeds + 1)
+    """A curve for each wedge, at its own tilts [degrees]; wedge number i has seeds from `seed_stride` i + first on."""
+    seeds = range(first_seed, first_seed + effort.seeds)
     runs = {
         (wedge, tilt, seed): wedge.run(tilt, seed_stride * number + seed, effort.duration * wedge.time)
         for number, (wedge, tilts) in enumerate(wedges.items())

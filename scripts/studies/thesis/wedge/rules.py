@@ -49,19 +49,24 @@ def alike(differences: Sequence[Estimate], strongest: float, lost: int = 0) -> t
     return text, Judgement(Verdict.AGREES if reach < 2.0 * SMALL * strongest else Verdict.OPEN, rule)
 
 
-def symmetric(curves: Mapping[str, Curve], place: str = "6.1") -> Statement:
+def symmetric(curves: Mapping[str, Curve], place: str = "6.1", cause: str = "longer runs would tell") -> Statement:
     """A symmetric wedge does not turn the disk; seeds of the curves are independent runs, none mirrored."""
     zero = {name: curve.at(0.0) for name, curve in curves.items()}
-    ratio, p = chi_square([z.mean for z in zero.values()], [z.error for z in zero.values()])
     strongest = peak(list(curves.values()))
     return Statement.judged(
         place,
         "a symmetric wedge does not turn the disk",
-        "; ".join(f"{name}: {z.mean:.1e} +- {z.error:.0e}" for name, z in zero.items())
-        + f"; chi^2 per point {ratio:.2f}, p = {p:.2g}",
+        from_zero(zero),
         vanish(list(zero.values()), SMALL * strongest),
-        "longer runs would tell",
+        cause,
     )
+
+
+def from_zero(points: Mapping[str, Estimate]) -> str:
+    """Values that should be zero, and chi^2 of all of them."""
+    ratio, p = chi_square([z.mean for z in points.values()], [z.error for z in points.values()])
+    listed = "; ".join(f"{name}: {z.mean:.1e} +- {z.error:.0e}" for name, z in points.items())
+    return f"{listed}; chi^2 per point {ratio:.2f}, p = {p:.2g}"
 
 
 def changes_sense(curves: Mapping[str, Curve], every_one: bool = False) -> Statement:

@@ -139,6 +139,8 @@ def test_an_exponent_comes_back_with_its_interval() -> None:
 def test_a_line_through_two_points_has_no_error() -> None:
     with pytest.raises(ValueError, match="two points"):
         exponent((1.0, 2.0), [np.ones(3), 2.0 * np.ones(3)])
+    with pytest.raises(ValueError, match="two points"):
+        critical_exponent((2.0, 3.0), [2.0 * np.ones(3), 3.0 * np.ones(3)], np.ones(3), 1.0)
 
 
 def test_a_law_beyond_a_critical_gamma_comes_back() -> None:

@@ -12,6 +12,7 @@ from jostle_lab.statistics.estimates import Estimate, Numbers, bootstrap
 from jostle_lab.statistics.power_law import log_slope
 
 RESAMPLES = 1000
+TWO_POINTS = "A line through two points has no error of its slope; give three or more."
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ def fitted(samples: Sequence[Numbers], parameter: Callable[[Numbers], Numbers]) 
 def exponent(gammas: Sequence[float], samples: Sequence[Numbers]) -> Fitted:
     """Exponent of a power of Gamma; raises ValueError with fewer than three points, which have no scatter."""
     if len(gammas) < 3:
-        raise ValueError("A line through two points has no error of its slope; give three or more.")
+        raise ValueError(TWO_POINTS)
     return fitted(samples, lambda means: log_slope(gammas, means))
 
 
@@ -67,7 +68,9 @@ def geometric_exponent(gammas: Sequence[float], samples: Sequence[Numbers]) -> F
 
 
 def critical_exponent(gammas: Sequence[float], samples: Sequence[Numbers], at: Numbers, critical: float) -> Fitted:
-    """Exponent of (y - y_c) against (Gamma - Gamma_c), `at` the packings' values at Gamma_c (P 3.2)."""
+    """Exponent of (y - y_c) against (Gamma - Gamma_c), `at` the packings' values at Gamma_c (P 3.2); as `exponent`."""
+    if len(gammas) < 3:
+        raise ValueError(TWO_POINTS)
     beyond = np.array(gammas) - critical
 
     def parameter(means: Numbers) -> Numbers:

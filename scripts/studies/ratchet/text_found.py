@@ -45,10 +45,8 @@ def hexagonal(x: Numbers, y: Numbers, width: float, diameter: float = 2.15e-3) -
 class Found:
     """Arrays with one entry a seed."""
 
-    light: Numbers
-    """Transport velocities [m/s]."""
-    heavy: Numbers
-    """The same with 1024 times the mass."""
+    masses: Numbers
+    """Transport velocity, and its change with 1024 times the mass, shape (seeds, 2) [m/s]."""
     beds: Mapping[float, Numbers]
     """Range of the height of each disk above the base over the amplitude, shape (seeds, disks), by Gamma."""
     mono: Numbers

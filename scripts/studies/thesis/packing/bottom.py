@@ -157,9 +157,15 @@ def _packings(square: Axes, shares: Axes, found: Found) -> None:
     steady = [e.over("steady") for e in found.random.values()]
     draw_curve(shares, gammas, steady, r"$\rho^2 > 0.95$, random", marker="^", color=COUNTER_CLOCKWISE, linestyle=":")
     shares.axhline(0.125, color="0.6", lw=0.7, ls=":", label="same way by chance")
-    label = r"$\Gamma = \epsilon\omega_b^2/\sqrt{2}g$"
+    label = r"$\Gamma$; random row: $\epsilon\omega_b^2/\sqrt{2}g$"
     square.set(xscale="log", yscale="log", xlabel=label, ylabel=r"$\langle\bar\omega^2\rangle$ [RPM$^2$]")
-    shares.set(xscale="log", xlabel=label, ylabel="share of the free disks", ylim=(0.0, 1.35))
+    shares.set(
+        xscale="log",
+        xlabel=label,
+        ylabel="share of the free disks",
+        ylim=(0.0, 1.35),
+        yticks=(0, 0.2, 0.4, 0.6, 0.8, 1.0),
+    )
     square.set_title("(a) 60 disks")
     shares.set_title("(b) 60 disks")
     square.legend(loc="lower right")

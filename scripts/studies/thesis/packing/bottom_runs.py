@@ -164,6 +164,7 @@ def summary(case: Shaken, table: Table) -> Table:
     quarters = np.diff(each("angle")[UNOBSERVED:, free], axis=0) / QUARTER / RPM
     velocity = quarters.mean(axis=0)
     correlation = each("rotation_correlation")[-1, free]
+    epsilon = case.radius or math.nan
     away = np.hypot(each("x")[1:, row] - each("x")[0, row], heights[1:, row] - heights[0, row])
     lost = np.diff(table["energy.lost"][[UNOBSERVED, -1]]) / (OBSERVED * QUARTER)
     return {
@@ -173,7 +174,7 @@ def summary(case: Shaken, table: Table) -> Table:
         "faithful": np.array([np.mean(np.abs(np.sign(quarters).sum(axis=0)) == OBSERVED)]),
         "steady": np.array([np.mean(correlation > 0.95), correlation.mean()]),
         "row": np.array([np.count_nonzero(row), np.abs(each("angle")[-1, row]).max()]),
-        "circle": np.array([away.max(), np.mean(away**2)]) / (case.radius or math.nan),
+        "circle": np.array([(away / epsilon).max(), np.mean((away / epsilon) ** 2)]),
         "power": np.array([table["energy.kinetic"][UNOBSERVED + 1 :].mean(), float(lost[0])]),
     }
 

@@ -49,9 +49,12 @@ class Found:
     """Transport velocity, and its change with 1024 times the mass, shape (seeds, 2) [m/s]."""
     beds: Mapping[float, Numbers]
     """Range of the height of each disk above the base over the amplitude, shape (seeds, disks), by Gamma."""
-    mono: Numbers
-    """What `hexagonal` finds among equal disks, shape (seeds, 2)."""
-    poly: Numbers
+    landed: Numbers
+    """The same at the lowest Gamma with a lower velocity floor."""
+    mono: Mapping[float, Numbers]
+    """What `hexagonal` finds among equal disks, shape (seeds, 2), by the time that they are shaken [s]."""
+    poly: Mapping[float, Numbers]
+    """Among unequal ones."""
     jumps: Numbers
     """To the right and to the left, shape (seeds, 2)."""
     whole: Numbers

@@ -30,7 +30,7 @@ FREEZING = (4.0, 10.0)
 """For so long [s]."""
 SOFT_LANDING = 1e-3
 """A lower velocity floor than F's 5 mm/s [m/s]."""
-REPEATED = 8
+REPEATED = 5
 """Runs of the bed whose scatter is a result."""
 DENSE = Case(6.0, 0.25, 25.0, 140, seconds=6.0)
 """Many particles on the teeth of F Figs 8 and 10."""
@@ -106,8 +106,15 @@ def observe(laboratory: Laboratory, quick: bool) -> Found:
         }
         for radii in (MONO, POLY)
     }
+    level = replace(FROZEN, height=0.0)
+    flat = tuple(
+        np.array(
+            [runs.reduced(_frozen(radii, FREEZING[0], level), seed, FREEZING[0], "order")[1] for seed in runs.seeds]
+        )
+        for radii in (MONO, POLY)
+    )
     soft = _bed(BED_GAMMAS[0]).with_changes(collision__minimum_normal_velocity=SOFT_LANDING)
-    landed = np.array([runs.reduced(soft, seed, BED_SAMPLE, "moved") for seed in runs.seeds]) / AMPLITUDE
+    landed = runs.reduced(soft, 1, BED_SAMPLE, "moved") / AMPLITUDE
     repeated = runs.seeds if quick else range(1, REPEATED + 1)
     hops = np.array([runs.reduced(DENSE, seed, 1.0 / DENSE.frequency, "jumps") for seed in runs.seeds])
     whole = runs.last(WHOLE, "transport_velocity", repeated)
@@ -121,15 +128,15 @@ def observe(laboratory: Laboratory, quick: bool) -> Found:
         )
         for name, (h, a, n, critical) in CRITICAL.items()
     }
-    return Found(masses, beds, landed, order[MONO], order[POLY], hops, 100.0 * whole, 100.0 * spread, onsets)
+    return Found(masses, beds, landed, order[MONO], order[POLY], flat, hops, 100.0 * whole, 100.0 * spread, onsets)
 
 
 def _bed(gamma: float) -> Case:
     return replace(FORWARD, frequency=frequency_of(gamma), seconds=BED_SECONDS)
 
 
-def _frozen(radii: tuple[float, float], seconds: float) -> Case:
-    return replace(FROZEN, seconds=seconds).with_changes(disk__radius_min=radii[0], disk__radius_max=radii[1])
+def _frozen(radii: tuple[float, float], seconds: float, case: Case = FROZEN) -> Case:
+    return replace(case, seconds=seconds).with_changes(disk__radius_min=radii[0], disk__radius_max=radii[1])
 
 
 class Text:
@@ -154,18 +161,21 @@ class Text:
 
 
 def draw(found: Found) -> Figure:
-    """Share of flying disks against Gamma, and order of equal and of unequal disks."""
+    """Share of flying disks against Gamma, and hexagons of equal and of unequal disks."""
     figure = Figure(figsize=(WIDTH, 3.2), layout="constrained")
     left, right = figure.subplots(1, 2)
     flying = found.flying()
     draw_curve(left, list(flying), list(flying.values()), "", marker="o", color="black", linestyle="-")
     left.axvline(1.0, color="0.6", lw=0.7, ls=":")
     left.set(xlabel=r"$\Gamma$", ylabel="share of the disks that fly", title="(a) bed of 0.7 layers", ylim=(-0.05, 1.1))
-    for place, (name, values) in enumerate((("equal radii", found.mono), ("1.05 to 1.155 mm", found.poly))):
-        e = Estimate.over_runs(values[max(values)][:, 1])
-        right.bar([place], [e.mean], 0.5, yerr=[e.error], color=("0.35", "0.75")[place], capsize=3.0, label=name)
-    right.set(xticks=[0, 1], xticklabels=["equal radii", "1.05 to 1.155 mm"], title="(b) four layers at rest")
-    right.set(ylabel=r"share in hexagons, $|\psi_6|$ > 0.9", xlim=(-0.6, 1.6))
+    for kind, (by_time, flat) in enumerate(zip((found.mono, found.poly), found.flat, strict=True)):
+        shares = [Estimate.over_runs(values) for values in (by_time[max(by_time)][:, 1], flat)]
+        places = [0.0 + 0.35 * kind, 1.0 + 0.35 * kind]
+        style = {"color": ("0.35", "0.75")[kind], "capsize": 3.0, "label": ("equal radii", "1.05 to 1.155 mm")[kind]}
+        right.bar(places, [e.mean for e in shares], 0.33, yerr=[e.error for e in shares], **style)
+    right.set(xticks=[0.175, 1.175], xticklabels=["teeth of 3 mm", "flat base"], title="(b) four layers at rest")
+    right.set(ylabel=r"share in hexagons, $|\psi_6|$ > 0.9", ylim=(0.0, 0.6))
+    right.legend(loc="upper left")
     return figure
 
 

@@ -50,11 +50,13 @@ class Found:
     beds: Mapping[float, Numbers]
     """Range of the height of each disk above the base over the amplitude, shape (seeds, disks), by Gamma."""
     landed: Numbers
-    """The same at the lowest Gamma with a lower velocity floor."""
+    """The same at the lowest Gamma with a lower velocity floor, one seed."""
     mono: Mapping[float, Numbers]
     """What `hexagonal` finds among equal disks, shape (seeds, 2), by the time that they are shaken [s]."""
     poly: Mapping[float, Numbers]
     """Among unequal ones."""
+    flat: tuple[Numbers, ...]
+    """Share of the disks that sit in hexagons on a flat base, equal and unequal ones."""
     jumps: Numbers
     """To the right and to the left, shape (seeds, 2)."""
     whole: Numbers

@@ -9,7 +9,9 @@ from jostle_lab.statements import Product
 Maker = Callable[[Laboratory, bool, int | None], Product]
 
 MODULES = {
+    "1.3": "packing.bottom",
     "2.2": "methods.parameters",
+    "2.3": "methods.formulas",
     "2.3.3": "methods.base_sampling",
     "camera": "laboratory.figures:sensors",
     "3.1": "laboratory.figures:paths",
@@ -39,6 +41,7 @@ MODULES = {
     "6.2": "wedge.paths",
     "three-disks": "wedge.three_disks",
     "6.3": "wedge.dynamics",
+    "6.3.1": "wedge.map_equations",
     "6.4": "wedge.collapse",
     "6.5": "wedge.engines",
     "6.6": "wedge.friction",
@@ -63,6 +66,8 @@ STUDIES = {
     "F13": "flow:FORWARDS",
     "F14": "flow:BACKWARDS",
     "FV": "single",
+    "FA": "appendix",
+    "FT": "text:TEXT",
 }
 """Figure or section of F and the study in `studies.ratchet` that makes it; a module without one has `make`."""
 RECORDS = dict.fromkeys(("3.6", "3.7", "3.8", "3.9", "3.11"), "packing")

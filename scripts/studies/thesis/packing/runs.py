@@ -33,7 +33,7 @@ MOVING = Method("event-driven", 2, "ED, moving base")
 
 
 def shaken(
-    method: Method, stiffness: float, gamma: float, seed: int, start: int, frequency: float = FREQUENCY
+    method: Method, stiffness: float, gamma: float, seed: int, start: float, frequency: float = FREQUENCY
 ) -> tuple[tuple[str, float], ...]:
     """Parameters of a packing whose rotation is measured from `start` [s] on; others are those of P 3.2."""
     return (

@@ -4,10 +4,13 @@
 //! Imports point one way: `scene -> measure -> engine, packing -> contact, collision, drive -> geometry`. Only `scene` knows the crate
 //! `fmi_component`, which makes a co-simulation component of a scene.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod clone_in_place;
 pub mod collision;
 pub mod contact;
 pub mod drive;
+pub mod elementary;
 pub mod engine;
 pub mod error;
 pub mod geometry;

@@ -4,6 +4,7 @@
 //! else is checked; a panic stays in its own simulation; no globals, so that the library may be loaded and unloaded. Not
 //! here: the scenes (`jostle::scene`), FMI (`fmi_component`).
 #![allow(unsafe_code)] // pointers of the caller are followed here; nothing else in this crate needs to be
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))] // those of clippy.toml
 
 mod creation;
 mod handle;

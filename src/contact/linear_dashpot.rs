@@ -3,6 +3,7 @@
 use wide::f64x2;
 
 use super::NormalForce;
+use crate::elementary::{acos, acosh, exp};
 use crate::geometry::bracketed_root::falling_root;
 
 /// Linear spring and dashpot that push and never pull.
@@ -56,7 +57,7 @@ impl LinearDashpot {
     /// The contact ends when the force vanishes. Source: P 4.56 (in a form without its singularities), Schwager and
     /// Poeschel 2007.
     pub fn restitution_at(damping_ratio: f64) -> f64 {
-        (-damping_ratio * Self::scaled_duration(damping_ratio)).exp()
+        exp(-damping_ratio * Self::scaled_duration(damping_ratio))
     }
 
     /// Damping ratio c >= 0 at which the restitution is e_n in (0, 1].
@@ -82,9 +83,9 @@ impl LinearDashpot {
         let arc = if departure.abs() < 1e-4 {
             1.0 - departure * (1.0 / 3.0 - departure * (2.0 / 15.0 - departure * (2.0 / 35.0)))
         } else if c < 1.0 {
-            c.acos() / ((1.0 - c) * (1.0 + c)).sqrt()
+            acos(c) / ((1.0 - c) * (1.0 + c)).sqrt()
         } else {
-            c.acosh() / ((c - 1.0) * (c + 1.0)).sqrt()
+            acosh(c) / ((c - 1.0) * (c + 1.0)).sqrt()
         };
         2.0 * arc
     }

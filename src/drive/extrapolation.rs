@@ -11,6 +11,7 @@
 
 mod polynomial;
 
+use crate::elementary::powi;
 use serde::{Deserialize, Serialize};
 
 use polynomial::Newton;
@@ -294,7 +295,7 @@ impl InputHistory {
             }
             let used = &samples[samples.len() - candidate.points..];
             let to_samples: f64 = used.iter().map(|sample| time - sample.time).product();
-            error * to_samples.powi(candidate.values as i32)
+            error * powi(to_samples, candidate.values as i32)
         };
         let errors: [f64; CANDIDATES.len()] = std::array::from_fn(expected);
         let least = errors.iter().copied().fold(f64::INFINITY, f64::min);

@@ -1,5 +1,6 @@
 //! A damped oscillator forced by white noise, advanced by exact steps (P 5.10).
 
+use crate::elementary::{cos, cosh, exp, sin, sinh};
 use serde::{Deserialize, Serialize};
 
 /// Displacement and rate of one oscillator of unit variance \[1, 1/s\].
@@ -23,11 +24,11 @@ fn response(angular_frequency: f64, damping_ratio: f64, time: f64) -> (f64, f64)
         let square = detuning * time * time;
         (time * (1.0 - square / 6.0), 1.0 - 0.5 * square)
     } else if detuning > 0.0 {
-        ((root * time).sin() / root, (root * time).cos())
+        (sin(root * time) / root, cos(root * time))
     } else {
-        ((root * time).sinh() / root, (root * time).cosh())
+        (sinh(root * time) / root, cosh(root * time))
     };
-    let faded = (-decay * time).exp();
+    let faded = exp(-decay * time);
     (faded * sine, faded * (cosine - decay * sine))
 }
 

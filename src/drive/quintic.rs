@@ -1,5 +1,6 @@
 //! A motion that is a polynomial of degree five for a while: the path of the base through one communication step.
 
+use crate::elementary::powi;
 use serde::{Deserialize, Serialize};
 
 use super::Motion;
@@ -93,7 +94,7 @@ impl QuinticPath {
         Motion {
             displacement: c0 + u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5)))),
             velocity: (c1 + u * (2.0 * c2 + u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5)))) / self.duration,
-            acceleration: (2.0 * c2 + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5))) / self.duration.powi(2),
+            acceleration: (2.0 * c2 + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5))) / powi(self.duration, 2),
         }
     }
 
@@ -106,7 +107,7 @@ impl QuinticPath {
         controls
             .into_iter()
             .fold(0.0, |most: f64, control| most.max(control.abs()))
-            / self.duration.powi(2)
+            / powi(self.duration, 2)
     }
 
     /// The same path with time counted from `origin` \[s\].

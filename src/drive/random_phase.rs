@@ -16,6 +16,7 @@ use std::f64::consts::{PI, TAU};
 use rand::Rng;
 use serde::{Deserialize, Serialize};
 
+use crate::elementary::{acos, sin_cos};
 use crate::geometry::bracketed_root::falling_root_near;
 
 /// Sinusoidal base in the fixed-bottom, random-phase approximation.
@@ -77,7 +78,7 @@ fn cosine_of_phase(ratio: f64, even: f64) -> f64 {
     }
     let tangent = ratio.min(1.0); // m
     let sine = ((1.0 - tangent) * (1.0 + tangent)).sqrt(); // sin tau_A
-    let last = if ratio < 1.0 { (-tangent).acos() } else { PI }; // tau_A
+    let last = if ratio < 1.0 { acos(-tangent) } else { PI }; // tau_A
     let excess = ratio - tangent;
     let target = TAU * ratio * even;
     // The left side bends up until delta = tau_A, where it is sin tau_A + x tau_A, and down from there: Newton's method
@@ -91,7 +92,7 @@ fn cosine_of_phase(ratio: f64, even: f64) -> f64 {
         last
     };
     let delta = falling_root_near(0.0, 2.0 * last, guess, |delta| {
-        let (half_sine, half_cosine) = (0.5 * delta).sin_cos();
+        let (half_sine, half_cosine) = sin_cos(0.5 * delta);
         let lower = 2.0 * half_sine * half_sine; // 1 - cos delta
         let full_sine = 2.0 * half_sine * half_cosine;
         let lag = if delta < 0.3 {
@@ -104,7 +105,7 @@ fn cosine_of_phase(ratio: f64, even: f64) -> f64 {
             -(sine * full_sine + tangent * lower + excess),
         )
     });
-    let (full_sine, cosine) = delta.sin_cos();
+    let (full_sine, cosine) = sin_cos(delta);
     sine * full_sine - tangent * cosine
 }
 

@@ -1,5 +1,6 @@
 //! Sinusoidal base, `y = A sin(2 pi f t + phase)` (P 2.37).
 
+use crate::elementary::{mul_add, powi, sin_cos};
 use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
@@ -20,19 +21,19 @@ pub struct Sine {
 impl Sine {
     /// Amplitude \[m\] that gives the dimensionless acceleration `gamma`.
     pub fn amplitude_of(gamma: f64, frequency: f64, gravity: f64) -> f64 {
-        gamma * gravity / (TAU * frequency).powi(2)
+        gamma * gravity / powi(TAU * frequency, 2)
     }
 }
 
 impl Drive for Sine {
     fn motion(&self, time: f64) -> Motion {
         // Whole periods go first: the argument keeps its digits however long the run.
-        let (sine, cosine) = (TAU * (self.frequency * time).fract() + self.phase).sin_cos();
+        let (sine, cosine) = sin_cos(TAU * (self.frequency * time).fract() + self.phase);
         let angular_frequency = TAU * self.frequency;
         Motion {
             displacement: self.amplitude * sine,
             velocity: self.amplitude * angular_frequency * cosine,
-            acceleration: -self.amplitude * angular_frequency.powi(2) * sine,
+            acceleration: -self.amplitude * powi(angular_frequency, 2) * sine,
         }
     }
 }
@@ -40,7 +41,7 @@ impl Drive for Sine {
 impl BoundedDrive for Sine {
     #[inline]
     fn greatest_acceleration(&self) -> f64 {
-        self.amplitude.abs() * (TAU * self.frequency).powi(2)
+        self.amplitude.abs() * powi(TAU * self.frequency, 2)
     }
 
     #[inline]
@@ -51,7 +52,7 @@ impl BoundedDrive for Sine {
     /// The phase at the origin is exact however many periods have passed: the product is taken with its rounding error.
     fn counted_from(&self, origin: f64) -> Self {
         let periods = self.frequency * origin;
-        let rounded_away = self.frequency.mul_add(origin, -periods);
+        let rounded_away = mul_add(self.frequency, origin, -periods);
         let phase = TAU * (periods.fract() + rounded_away) + self.phase;
         Self { phase, ..*self }
     }

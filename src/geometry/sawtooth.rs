@@ -14,6 +14,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::clockwise;
+use crate::elementary::hypot;
 use crate::error::{Error, Result, Shortest};
 
 /// Periodic row of equal teeth; a tooth begins at each multiple of its width.
@@ -93,7 +94,7 @@ impl SawtoothProfile {
                 "Take a smaller tip or wider teeth.",
             ));
         }
-        let lengths = [left.hypot(height), right.hypot(height)];
+        let lengths = [hypot(left, height), hypot(right, height)];
         let one = Vector2::new(-left, -height) / lengths[0];
         let two = Vector2::new(right, -height) / lengths[1];
         let side = |down, normal| Side { down, normal };
@@ -158,7 +159,7 @@ impl SawtoothProfile {
                 };
             }
         }
-        let distance = from.x.hypot(from.y);
+        let distance = hypot(from.x, from.y);
         Clearance {
             distance: distance - self.tip_radius,
             normal: from / distance,

@@ -3,6 +3,7 @@
 //! The frame of a wall at angle `th` to the horizontal is `n = (-sin th, cos th)`, `t = (cos th, sin th)`: the normal
 //! points into the free half plane and the tangent is the normal turned clockwise by a right angle.
 
+use crate::elementary::{cos, sin};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
@@ -50,7 +51,7 @@ impl Wall {
     /// Wall through the origin at `angle` \[rad\] to the horizontal that moves with the base; one side of a wedge.
     pub fn vibrating_slope(angle: f64) -> Self {
         Self {
-            normal: Vector2::new(-angle.sin(), angle.cos()),
+            normal: Vector2::new(-sin(angle), cos(angle)),
             offset: 0.0,
             follows_base: 1.0,
         }

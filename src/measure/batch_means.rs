@@ -10,6 +10,7 @@ use std::ops::Deref;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::elementary::powi;
 use crate::error::are_sane;
 
 /// Running mean rate and its standard error.
@@ -142,7 +143,7 @@ impl BatchMeans {
         let squares = self
             .readings
             .windows(2)
-            .map(|pair| (rate(pair) - mean).powi(2))
+            .map(|pair| powi(rate(pair) - mean, 2))
             .sum::<f64>();
         (squares / (count as f64 * (count as f64 - 1.0))).sqrt()
     }

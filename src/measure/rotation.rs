@@ -7,6 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::clone_in_place::clone_in_place;
+use crate::elementary::powi;
 use crate::engine::dem::Sampler;
 use crate::error::are_sane;
 
@@ -171,7 +172,7 @@ impl Rotation {
 
     /// Mean over the disks of the squared mean angular velocity \[rad2/s2\].
     pub fn mean_square(&self) -> f64 {
-        self.mean(|path, intervals| self.velocity(path, intervals).powi(2))
+        self.mean(|path, intervals| powi(self.velocity(path, intervals), 2))
     }
 
     /// The same less what a random walk of the angles adds in a record of n intervals, the variance of the mean of n
@@ -182,7 +183,7 @@ impl Rotation {
         }
         self.mean(|path, intervals| {
             let walk = self.variance(path, intervals) / (intervals - 1.0);
-            self.velocity(path, intervals).powi(2) - walk
+            powi(self.velocity(path, intervals), 2) - walk
         })
     }
 

@@ -8,6 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::clone_in_place::clone_in_place;
+use crate::elementary::powi;
 use crate::error::are_sane;
 
 use super::BatchMeans;
@@ -104,7 +105,7 @@ impl Transport {
         let displacement = self.mean_displacement(positions.clone());
         let squares: f64 = positions
             .zip(&self.positions)
-            .map(|(position, start)| (position - start - displacement).powi(2))
+            .map(|(position, start)| powi(position - start - displacement, 2))
             .sum();
         let others = self.positions.len().saturating_sub(1).max(1) as f64;
         (squares / others).sqrt() / duration

@@ -3,6 +3,7 @@
 //! Upright columns suffice, since the front is thin. Each octave of radii has columns of its own width, so that a few
 //! large disks do not make every search as wide as they are.
 
+use crate::elementary::powi;
 use crate::geometry::Disk;
 
 /// Front disks in columns.
@@ -32,7 +33,7 @@ impl Columns {
             counts[level] += 1;
         }
         let levels = counts.iter().enumerate().map(|(index, &count)| {
-            let largest = smallest * 2f64.powi(index as i32 + 1);
+            let largest = smallest * powi(2f64, index as i32 + 1);
             // No more columns than disks: memory does not follow the width of an empty box.
             let column_width = (2.0 * largest).max(width / (count as f64 + 1.0));
             let columns = vec![Vec::new(); (width / column_width) as usize + 1];

@@ -36,8 +36,8 @@ mod work_limit;
 
 pub use any_simulation::{AnySimulation, Selection};
 pub use fmi_component::{
-    Causality, DynSimulation, Error, Kind, Model, ModelInfo, ModelType, Quantity, Reached, Read, Result, Row, Saved,
-    Simulation, StructuralParameters, TIME, Table, Unit, Value, Values, Variable, Warning,
+    Causality, DynSaved, DynSimulation, Error, Kind, Model, ModelInfo, ModelType, Quantity, Reached, Read, Result, Row,
+    Saved, Simulation, StructuralParameters, TIME, Table, Unit, Value, Values, Variable, Warning,
 };
 pub use info::SceneInfo;
 #[cfg(feature = "toml")]

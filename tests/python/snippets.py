@@ -13,6 +13,8 @@ from conftest import ROOT
 RELEASE = Path(os.environ.get("CARGO_TARGET_DIR", "target")) / "release"
 LANGUAGES = {"python", "c", "cpp", "sh", "rust", "toml"}
 """Languages whose blocks a test runs. Other blocks are text."""
+PAGES = ("README.md", "CONTRIBUTING.md", "SECURITY.md", "benches/peers/README.md", "python/README.md")
+"""Beside those in docs/."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +29,7 @@ class Snippet:
 
 def pages() -> list[Path]:
     """Every page that people write."""
-    found = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md", "benches/peers/README.md")]
+    found = [ROOT / name for name in PAGES]
     return found + sorted((ROOT / "docs").glob("*.md"))
 
 
@@ -49,16 +51,16 @@ def snippet(page: str, language: str, name: str) -> str:
     return found[0]
 
 
-def run(*command: str) -> str:
+def run(*command: str, folder: Path = ROOT) -> str:
     """What a command prints; it must succeed."""
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, f"{command[0]} ended with {done.returncode}:\n{done.stdout}{done.stderr}"
     return done.stdout
 
 
-def python(program: str) -> str:
+def python(program: str, folder: Path = ROOT) -> str:
     """What a Python program prints."""
-    return run(sys.executable, "-c", program)
+    return run(sys.executable, "-c", program, folder=folder)
 
 
 def shell(script: str) -> str:

@@ -14,7 +14,9 @@ from snippets import LANGUAGES, RELEASE, compiled, python, run, shell, snippet, 
 BUILD = ROOT / "build"
 WEIGHT = 3.57 * math.pi * 20 * (0.015**2 + 0.020**2 + 0.025**2) * 9.8
 STATIC_LIBRARY = (str(RELEASE / "libjostle_c.a"), "-lm", "-lpthread", "-ldl")
-CONTROL, PHYSICIST, C, RUST = (f"docs/{name}.md" for name in ("control-engineer", "physicist", "c", "rust"))
+CONTROL, PHYSICIST, PYTHON, C, RUST = (
+    f"docs/{name}.md" for name in ("control-engineer", "physicist", "python", "c", "rust")
+)
 RUN_ELSEWHERE = {
     (RUST, "rust", ""),  # src/lib.rs: tests of the documentation
     (RUST, "toml", ""),  # a line of a Cargo.toml
@@ -194,3 +196,19 @@ def test_grid_of_the_page_of_figures_is_read():
 def test_peers_are_built_and_run():
     output = shell("exec 2>&1\n" + snippet("benches/peers/README.md", "sh", "peers"))
     assert "refed N=" in output
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        (PYTHON, "python", "dataset"),
+        (PYTHON, "python", "pandas"),
+        (PYTHON, "python", "error bars"),
+        (PYTHON, "python", "loop"),
+        (PYTHON, "python", "states"),
+        (PYTHON, "python", "refusal"),
+        ("python/README.md", "python", "package"),
+    ],
+)
+def test_guide_for_python(program: tuple[str, str, str], tmp_path: Path) -> None:
+    assert python(snippet(*program), tmp_path) or program[2] == "states"  # one of them writes a file

@@ -9,6 +9,7 @@
 //! ```
 //!
 #![doc = include_str!("../README.md")]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))] // those of clippy.toml
 
 mod bundle;
 mod check;

@@ -98,9 +98,9 @@ fn set_inputs(component: &Component, simulation: &mut dyn DynSimulation, inputs:
     for input in inputs {
         let Some(rate) = table.derivative(*input) else { continue };
         let amplitude = (component.amplitude)(&table.variables()[*input], omega);
-        simulation.set_at(*input, Value::Real(amplitude * (1.0 - phase.cos())))?;
+        simulation.set_at(*input, Value::Real(amplitude * (1.0 - libm::cos(phase))))?;
         if table.derivative(rate).is_none() {
-            simulation.set_at(rate, Value::Real(amplitude * omega * phase.sin()))?;
+            simulation.set_at(rate, Value::Real(amplitude * omega * libm::sin(phase)))?;
         }
     }
     Ok(())

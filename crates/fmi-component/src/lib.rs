@@ -20,6 +20,7 @@
 //! ```
 //!
 //! Not here: files (the crate `fmi-bundle` writes model descriptions and FMUs) and physics.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))] // those of clippy.toml
 
 pub mod arrays;
 pub mod c_api;

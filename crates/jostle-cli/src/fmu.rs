@@ -119,7 +119,7 @@ fn notices() -> Notices {
 fn reference_amplitude(input: &Variable, omega: f64) -> f64 {
     const ACCELERATION: f64 = 20.0;
     match &input.kind {
-        Kind::Real(quantity) if quantity.unit == Unit::METRE => ACCELERATION / omega.powi(2),
+        Kind::Real(quantity) if quantity.unit == Unit::METRE => ACCELERATION / (omega * omega),
         _ => nominal_amplitude(input, omega),
     }
 }

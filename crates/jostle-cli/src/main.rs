@@ -1,6 +1,7 @@
 //! The command line. Thin: arguments in, library calls out, refusals to standard error.
 //!
 //! Exit codes: 0 done; 2 an argument or parameter is wrong and nothing was run; 1 the run or a file failed on the way.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))] // those of clippy.toml
 
 mod assignments;
 #[cfg(test)]

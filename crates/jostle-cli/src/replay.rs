@@ -11,9 +11,9 @@ use crate::standard_output;
 
 /// Check that an FMU computes here what it computed where it was made.
 ///
-/// Runs the library in the FMU along the reference trajectory beside it and compares every output. On the machine on
-/// which it was made every bit is equal. Another processor or C library may round sines and exponentials in another way;
-/// then differences up to a millionth of a variable's size pass, unless --exact is given.
+/// Runs the library in the FMU along the reference trajectory beside it and compares every output. Bits are equal on every
+/// system; a library of another version may differ in the last ones. Differences up to a millionth of a variable's size pass,
+/// unless --exact is given.
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  jostle replay packing.fmu")]
 pub struct Replay {

@@ -258,7 +258,7 @@ fn velocity(
     if setting.friction <= 0.0 || setting.tilt.abs() >= detachment_tilt(setting) || !limits.lower().is_finite() {
         let allowed = format!(
             "above 0 and below {}, where a slide opens a contact at this tilt",
-            (setting.half_angle - setting.tilt.abs()).tan()
+            jostle::elementary::tan(setting.half_angle - setting.tilt.abs())
         );
         let remedy = "Tilt less, or change the friction.";
         return Err(Error::parameter("contact.friction", setting.friction, allowed, remedy));

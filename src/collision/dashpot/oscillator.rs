@@ -5,6 +5,7 @@
 //! `v' = -N`, `N' = v - 2 c N`. Source: P 4.52 to 4.54 with `delta'(0) = -u_n`.
 
 use crate::contact::LinearDashpot;
+use crate::elementary::{atan2, atanh, cosh, exp, sin_cos, sinh};
 
 /// Damped oscillation in closed form, for any damping ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +46,7 @@ impl Oscillator {
     /// Normal motion at `time` since touch.
     #[inline]
     pub fn at(&self, time: f64) -> Normal {
-        let decay = (-self.damping * time).exp();
+        let decay = exp(-self.damping * time);
         let square = self.discriminant * time * time;
         let (sine, cosine) = if square.abs() < 1e-2 {
             // sin(w t) / w and cos(w t) by their series in w^2, through critical damping.
@@ -55,11 +56,11 @@ impl Oscillator {
                     * (1.0 - square / 12.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0 * (1.0 - square / 90.0))));
             (time * sine, cosine)
         } else if self.discriminant > 0.0 {
-            let (sine, cosine) = (self.frequency * time).sin_cos();
+            let (sine, cosine) = sin_cos(self.frequency * time);
             (sine / self.frequency, cosine)
         } else {
             let angle = self.frequency * time;
-            (angle.sinh() / self.frequency, angle.cosh())
+            (sinh(angle) / self.frequency, cosh(angle))
         };
         Normal {
             velocity: decay * (cosine - self.damping * sine),
@@ -83,7 +84,7 @@ impl Oscillator {
         let time = if square.abs() < 1e-6 && ratio > 0.0 {
             ratio * (1.0 - square / 3.0 * (1.0 - 0.6 * square))
         } else if self.discriminant > 0.0 {
-            let angle = (self.frequency * rate).atan2(slope);
+            let angle = atan2(self.frequency * rate, slope);
             let angle = if angle > 0.0 {
                 angle
             } else {
@@ -91,7 +92,7 @@ impl Oscillator {
             };
             angle / self.frequency
         } else {
-            (self.frequency * ratio).atanh() / self.frequency
+            atanh(self.frequency * ratio) / self.frequency
         };
         (time > 0.0).then_some(time)
     }

@@ -16,6 +16,7 @@
 //!   there `f''' >= -B_3` gives the first step `3 f'' / B_3`.
 
 use super::oscillator::{Normal, Oscillator};
+use crate::elementary::{hypot, powi, sin_cos};
 use crate::geometry::bracketed_root::falling_root;
 
 /// What decides the tangential motion, all without dimension.
@@ -139,7 +140,7 @@ impl StickSlip {
             ..
         } = self.spring;
         let omega = self.frequency;
-        let amplitude = start.stretch.hypot(start.velocity / omega);
+        let amplitude = hypot(start.stretch, start.velocity / omega);
         let (mut time, mut stretch, mut velocity) = (start.time, start.stretch, start.velocity);
         let mut normal = self.normal.at(time);
         for step in 0..MOST_STEPS {
@@ -150,7 +151,7 @@ impl StickSlip {
             };
             // Solutions of the damped oscillation keep y^2 + y'^2 from growing: a bound on N'' and N''' from now on.
             let curvature = -normal.force - 2.0 * self.normal.damping * force_rate;
-            let later = curvature.hypot(-force_rate - 2.0 * self.normal.damping * curvature);
+            let later = hypot(curvature, -force_rate - 2.0 * self.normal.damping * curvature);
             let bound = mu * later + kappa * omega * omega * amplitude;
             let limits = [margin(1.0), margin(-1.0)];
             let steps = limits.map(|limit| limit.safe_step(bound));
@@ -164,7 +165,7 @@ impl StickSlip {
                     } else {
                         (-1.0, steps[0])
                     };
-                    let jerk = mu * later + kappa * omega.powi(3) * amplitude;
+                    let jerk = mu * later + kappa * powi(omega, 3) * amplitude;
                     let leaving = 3.0 * (mu * curvature + left * kappa * omega * omega * stretch) / jerk;
                     length = length.max(leaving.min(other));
                 }
@@ -181,7 +182,7 @@ impl StickSlip {
             }
             time = (time + length).min(self.normal.duration);
             normal = self.normal.at(time);
-            let (sine, cosine) = (omega * (time - start.time)).sin_cos();
+            let (sine, cosine) = sin_cos(omega * (time - start.time));
             stretch = start.stretch * cosine + start.velocity / omega * sine;
             velocity = start.velocity * cosine - start.stretch * omega * sine;
             if time >= self.normal.duration {

@@ -19,6 +19,7 @@ use super::HeldDisk;
 use crate::clone_in_place::clone_in_place;
 use crate::drive::gaussian_step::{GaussianStep, PhasePoint};
 use crate::drive::{Drive, Motion};
+use crate::elementary::exp_m1;
 
 /// Cells of the noise in the shortest time of an oscillator.
 const CELLS: f64 = 50.0;
@@ -206,7 +207,7 @@ fn in_circle(radius: f64, [[x, vx], [y, vy]]: [PhasePoint; 2]) -> ([f64; 2], [f6
     let (u, slope) = if s < SMALL {
         series(s)
     } else {
-        let lost = -(-s).exp_m1();
+        let lost = -exp_m1(-s);
         (0.5 * lost / s, 0.5 * ((1.0 - lost) * s - lost) / (s * s))
     };
     let factor = radius * u.sqrt();

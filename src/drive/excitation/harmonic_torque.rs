@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use super::{Excitation, Piece, small_sine_cosine};
+use crate::elementary::sin_cos;
 use crate::error::are_sane;
 
 /// Torque of fixed amplitude and angular frequency.
@@ -37,7 +38,7 @@ impl Excitation for HarmonicTorque {
 
     fn piece(&self, start: f64) -> TurningTorque {
         // Whole periods go first: the argument keeps its digits however long the run.
-        let (sine, cosine) = (TAU * (self.angular_frequency / TAU * start).fract()).sin_cos();
+        let (sine, cosine) = sin_cos(TAU * (self.angular_frequency / TAU * start).fract());
         TurningTorque {
             angular_frequency: self.angular_frequency,
             sine: self.amplitude * sine,

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Excitation, Piece, SupportMotion, small_sine_cosine};
 use crate::drive::Sine;
+use crate::elementary::sin_cos;
 use crate::error::are_sane;
 
 /// Both supports on a sine along one direction, the right one ahead by a phase.
@@ -58,7 +59,7 @@ impl Excitation for SineSupports {
         // Whole periods go first: the argument keeps its digits however long the run.
         let turned = TAU * (frequency * start).fract() + phase;
         let phases = [turned, turned + self.phase_difference].map(|phase| {
-            let (sine, cosine) = phase.sin_cos();
+            let (sine, cosine) = sin_cos(phase);
             [amplitude * sine, amplitude * cosine]
         });
         TurningSupports {

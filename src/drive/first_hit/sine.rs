@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 
 use super::FirstHit;
 use crate::drive::Sine;
+use crate::elementary::{powi, sin_cos};
 use crate::geometry::{Flight, disk_wall};
 
 /// More than any march takes (some tens); what is left then is a hover within rounding of a touch.
@@ -45,7 +46,7 @@ impl FirstHit for Sine {
         if flight.gap <= 0.0 && flight.velocity < 0.0 {
             return 0.0;
         }
-        let (sine, cosine) = (TAU * (self.frequency * time).fract() + self.phase).sin_cos();
+        let (sine, cosine) = sin_cos(TAU * (self.frequency * time).fract() + self.phase);
         March {
             flight: Flight {
                 gap: flight.gap.max(0.0),
@@ -72,7 +73,7 @@ impl March {
         let pull = self.flight.pull;
         let size = amplitude.abs();
         let fall = (pull + size * omega * omega).max(0.0);
-        let jerk = size * omega.powi(3);
+        let jerk = size * powi(omega, 3);
         // Gap to the highest position of the base, at rest.
         let above = self.flight.gap - (size - amplitude * sine);
         let sinking = self.flight.velocity + amplitude * omega * cosine;
@@ -119,7 +120,7 @@ impl March {
             cosine,
         } = *self;
         let x = angular_frequency * time;
-        let (half_sine, half_cosine) = (0.5 * x).sin_cos();
+        let (half_sine, half_cosine) = sin_cos(0.5 * x);
         let lower = -2.0 * half_sine * half_sine; // cos x - 1
         let full_sine = 2.0 * half_sine * half_cosine;
         let lag = if x < 0.5 {
@@ -132,7 +133,7 @@ impl March {
         Gap {
             value: gap + time * (velocity - 0.5 * pull * time) - amplitude * (sine * lower + cosine * lag),
             rate: velocity - pull * time - amplitude * angular_frequency * (cosine * lower - sine * full_sine),
-            curvature: amplitude * angular_frequency.powi(2) * (sine * (1.0 + lower) + cosine * full_sine) - pull,
+            curvature: amplitude * powi(angular_frequency, 2) * (sine * (1.0 + lower) + cosine * full_sine) - pull,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 /// Below this sine the series of the arc sine through the fifth power is exact to rounding: the next term, relative to
 /// the first, is 15/336 x^6 < 1e-17.
+use crate::elementary::atan2;
 pub const SMALL_SINE: f64 = 0.002;
 
 /// Angle \[rad\] from `direction` to `normal`, counter-clockwise, between -pi and pi.
@@ -11,7 +12,7 @@ pub fn angle_between(direction: [f64; 2], normal: [f64; 2]) -> f64 {
     if sine.abs() < SMALL_SINE {
         return small_arc_sine(sine);
     }
-    sine.atan2(direction[0] * normal[0] + direction[1] * normal[1])
+    atan2(sine, direction[0] * normal[0] + direction[1] * normal[1])
 }
 
 #[inline(always)]

@@ -3,6 +3,7 @@
 use nalgebra::Vector2;
 
 use crate::drive::Motion;
+use crate::elementary::powi;
 use crate::engine::DiskMotion;
 
 use super::fixed_grid::{FixedGrid, Stepper};
@@ -90,7 +91,7 @@ impl<S: Stepper, D> FixedGrid<S, D> {
         let matter = self.radii().iter().zip(&self.setup().masses);
         let disks = self.observables().velocities.iter().zip(matter);
         disks.fold(0.0, |sum, ([vx, vy, spin], (radius, mass))| {
-            sum + 0.5 * mass * (vx * vx + vy * vy + 0.5 * (radius * spin).powi(2))
+            sum + 0.5 * mass * (vx * vx + vy * vy + 0.5 * powi(radius * spin, 2))
         })
     }
 

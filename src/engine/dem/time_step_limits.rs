@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::contact::{ContactLaws, NormalForce};
+use crate::elementary::powf;
 
 /// Time steps that suit a set of contact laws and masses.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,7 +63,7 @@ impl TimeStepLimits {
         let period = TAU / (oscillation + decay * decay).sqrt();
         let shortest = period.min(period_of(drive_frequency));
         let largest = (shortest / FEWEST_STEPS).min(MOST_DAMPING / decay);
-        let steps = (ERROR_OF_ONE_STEP / tolerance).powf(0.25);
+        let steps = powf(ERROR_OF_ONE_STEP / tolerance, 0.25);
         Self {
             default: largest.min(shortest / steps),
             largest,

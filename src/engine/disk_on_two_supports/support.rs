@@ -4,6 +4,7 @@
 //! a radius keep all their digits. A support is a disk or, with curvature zero, a wall: the formulas hold for both.
 
 use crate::drive::excitation::SupportMotion;
+use crate::elementary::{atan, sin_cos};
 
 /// Directions of a contact at the place where the disk just touches both supports.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,7 +20,7 @@ impl SupportFrame {
     ///
     /// The left contact has `angle = -alpha_1`, the right one `alpha_2` (P 4.1).
     pub fn new(angle: f64) -> Self {
-        let (sine, cosine) = angle.sin_cos();
+        let (sine, cosine) = sin_cos(angle);
         Self {
             normal: [-sine, cosine],
             tangent: [cosine, sine],
@@ -57,7 +58,7 @@ fn arc_over_slope(slope: f64) -> f64 {
         let tail = 1.0 / 7.0 - square * (1.0 / 9.0 - square * (1.0 / 11.0));
         1.0 - square * (1.0 / 3.0 - square * (1.0 / 5.0 - square * tail))
     } else {
-        slope.atan() / slope
+        atan(slope) / slope
     }
 }
 

@@ -1,5 +1,6 @@
 //! Time steps that resolve the contacts and the excitation.
 
+use crate::elementary::hypot;
 use std::f64::consts::TAU;
 
 use super::TwoSupportsRig;
@@ -32,7 +33,7 @@ impl TimeStepLimits {
         let stiffness = (normal.stiffness + 3.0 * tangential.stiffness).max(normal.stiffness * dragged);
         let rate = (2.0 * stiffness / rig.mass).sqrt();
         let damping = 2.0 * normal.damping * dragged / rig.mass;
-        let fastest = rate.hypot(damping);
+        let fastest = hypot(rate, damping);
         let [usual, least] = Self::STEPS_A_PERIOD.map(|steps| period.map_or(f64::INFINITY, |period| period / steps));
         Self {
             default: (Self::DEFAULT / fastest).min(usual),

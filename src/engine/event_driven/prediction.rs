@@ -3,6 +3,7 @@
 use nalgebra::Vector2;
 
 use crate::collision::CollisionLaw;
+use crate::elementary::hypot;
 
 use super::shells::ShellEntry;
 use super::{Body, Boundary, EventDriven, EventDrivenState, Partner, Space};
@@ -107,6 +108,6 @@ fn time_in_shell(body: &Body, centre: Vector2<f64>, slack: f64, gravity: f64) ->
         return if time > 0.0 { time } else { 0.0 };
     }
     // |r(t)| <= |r| + |v| t + g t^2 / 2
-    let room = (slack - offset.x.hypot(offset.y)).max(0.0);
+    let room = (slack - hypot(offset.x, offset.y)).max(0.0);
     2.0 * room / (speed_squared.sqrt() + (speed_squared + 2.0 * gravity * room).sqrt())
 }

@@ -5,6 +5,7 @@
 //! Both walls have the same frame but for a reflection, so that mirrored wedges give mirrored bits, and nothing is divided
 //! by an angle: walls may be horizontal, vertical or hang over.
 
+use crate::elementary::{cos, sin, sin_cos};
 use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 
@@ -54,13 +55,13 @@ impl WedgeFrame {
     /// `alpha_1 = theta_0 - theta_T`, the right one `alpha_2 = theta_0 + theta_T`, with `theta_0 = (pi - theta_W) / 2`.
     pub fn new(aperture: f64, tilt: f64) -> Self {
         let critical = Self::critical_tilt(aperture);
-        let up = |slope: f64| Vector2::new(slope.sin(), slope.cos());
-        let ((sine, cosine), half) = (aperture.sin_cos(), 0.5 * aperture);
+        let up = |slope: f64| Vector2::new(sin(slope), cos(slope));
+        let ((sine, cosine), half) = (sin_cos(aperture), 0.5 * aperture);
         Self {
             left: up(critical - tilt),
             right: up(critical + tilt),
             reflection: Matrix2::new(cosine, sine, sine, -cosine),
-            bisector: Vector2::new(half.cos(), half.sin()),
+            bisector: Vector2::new(cos(half), sin(half)),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Newton's equations for the centre of the disk (P 4.23, 4.24), solved for the normal forces.
 
 use super::Setting;
+use crate::elementary::sin_cos;
 
 /// Acceleration of the centre of the disk \[m/s2\]. [`Acceleration::default`] is the quasi-static case.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -22,8 +23,8 @@ pub struct Tangential {
 
 /// `w_1`, `w_2` of P 4.27 and 4.28 \[N\]: `sin(2 theta_0)` times the normal forces without tangential ones.
 pub(super) fn loads(setting: &Setting, acceleration: Acceleration) -> (f64, f64) {
-    let (s_1, c_1) = setting.left_angle().sin_cos();
-    let (s_2, c_2) = setting.right_angle().sin_cos();
+    let (s_1, c_1) = sin_cos(setting.left_angle());
+    let (s_2, c_2) = sin_cos(setting.right_angle());
     let sideways = setting.mass * acceleration.x;
     let down = setting.mass * (setting.gravity + acceleration.y);
     (sideways * c_2 + down * s_2, -sideways * c_1 + down * s_1)
@@ -35,7 +36,7 @@ pub(super) fn loads(setting: &Setting, acceleration: Acceleration) -> (f64, f64)
 /// pull: it has opened.
 pub fn normal_forces(setting: &Setting, acceleration: Acceleration, tangential: Tangential) -> (f64, f64) {
     let (w_1, w_2) = loads(setting, acceleration);
-    let (s_12, c_12) = (2.0 * setting.half_angle).sin_cos();
+    let (s_12, c_12) = sin_cos(2.0 * setting.half_angle);
     let Tangential { left, right } = tangential;
     ((w_1 - left * c_12 - right) / s_12, (w_2 + left + right * c_12) / s_12)
 }

@@ -1,5 +1,6 @@
 //! Mean angular velocity under a slow harmonic torque, in the closed form of P 5.9.
 
+use crate::elementary::{asin, cos, sin};
 use std::f64::consts::{PI, TAU};
 
 use super::slide::{HarmonicTorque, slide};
@@ -17,10 +18,10 @@ pub fn closed_form(setting: &Setting, limits: &Limits, torque: HarmonicTorque) -
         if torque.amplitude <= limit {
             return 0.0;
         }
-        let start = (limit / torque.amplitude).asin();
+        let start = asin(limit / torque.amplitude);
         let end = start + slide(torque.amplitude, limit, start).duration;
         // A_S - T(t_s) = A (sin psi_0 - sin psi_s), without the loss of digits of short slides.
-        let missing = -2.0 * torque.amplitude * (0.5 * (start + end)).cos() * (0.5 * (end - start)).sin();
+        let missing = -2.0 * torque.amplitude * cos(0.5 * (start + end)) * sin(0.5 * (end - start));
         missing * missing / limit
     };
     let square = setting.mass * setting.radius * setting.radius;
@@ -52,9 +53,9 @@ fn rests_between_slides(limits: &Limits, amplitude: f64) -> bool {
         if amplitude <= own {
             return true;
         }
-        let start = (own / amplitude).asin();
+        let start = asin(own / amplitude);
         let other_way = if amplitude > other {
-            PI + (other / amplitude).asin()
+            PI + asin(other / amplitude)
         } else {
             TAU + start
         };

@@ -7,6 +7,7 @@
 //! `D_2 A_S2 = D_1 A_S1`, `D_1 + D_2 = 2 pi`, and the counter-clockwise one has its middle at
 //! `sin(mid) = A_S2 D_2 / (2 A_e sin(D_2 / 2))`, which makes its speed vanish at both ends.
 
+use crate::elementary::{asin, sin};
 use std::f64::consts::{PI, TAU};
 
 use super::slide::{HarmonicTorque, slide};
@@ -46,14 +47,14 @@ pub fn cycle(setting: &Setting, limits: &Limits, torque: HarmonicTorque) -> Cycl
 fn without_rest(limits: &Limits, amplitude: f64) -> Option<f64> {
     let (clockwise, counter_clockwise) = (limits.clockwise, limits.counter_clockwise);
     let forth = TAU * clockwise / (clockwise + counter_clockwise);
-    let middle_sine = counter_clockwise * forth / (2.0 * amplitude * (0.5 * forth).sin());
+    let middle_sine = counter_clockwise * forth / (2.0 * amplitude * sin(0.5 * forth));
     if middle_sine.abs() > 1.0 {
         return None;
     }
-    let middle = PI - middle_sine.asin();
+    let middle = PI - asin(middle_sine);
     let (begin, end) = (middle - 0.5 * forth, middle + 0.5 * forth);
     // It must set off at once, in both senses.
-    if amplitude * begin.sin() < counter_clockwise || -amplitude * end.sin() < clockwise {
+    if amplitude * sin(begin) < counter_clockwise || -amplitude * sin(end) < clockwise {
         return None;
     }
     let forward = slide(amplitude, counter_clockwise, begin);
@@ -101,7 +102,7 @@ impl<'a> March<'a> {
     /// Starts where the torque passes the lower limit.
     fn from_rest(limits: &'a Limits, amplitude: f64) -> Self {
         let counter_clockwise = limits.counter_clockwise <= limits.clockwise;
-        let begin = (limits.lower() / amplitude).asin();
+        let begin = asin(limits.lower() / amplitude);
         Self {
             limits,
             amplitude,
@@ -127,7 +128,7 @@ impl<'a> March<'a> {
 
     /// Until the torque passes a limit; whether that took any time. Sets the sense of the next slide.
     fn rest(&mut self) -> bool {
-        let torque = self.amplitude * self.phase.sin();
+        let torque = self.amplitude * sin(self.phase);
         if torque > self.limits.counter_clockwise || torque < -self.limits.clockwise {
             self.counter_clockwise = torque > 0.0;
             return false;
@@ -136,7 +137,7 @@ impl<'a> March<'a> {
             if self.amplitude <= limit {
                 return f64::INFINITY;
             }
-            let begin = (limit / self.amplitude).asin() + shift;
+            let begin = asin(limit / self.amplitude) + shift;
             (begin - self.phase).rem_euclid(TAU)
         };
         let forth = wait(self.limits.counter_clockwise, 0.0);

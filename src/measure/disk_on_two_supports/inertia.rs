@@ -9,6 +9,7 @@
 
 use super::slide::{HarmonicTorque, slide};
 use super::{Corner, Limits, Setting, closed_form};
+use crate::elementary::{asin, cos, sin_cos};
 
 /// P 5.9 with the inertia of the disk \[rad/s\], for contacts of stiffness `normal_stiffness` \[N/m\].
 ///
@@ -27,8 +28,8 @@ pub fn closed_form_with_inertia(
         if torque.amplitude <= limit {
             return 0.0;
         }
-        let start = (limit / torque.amplitude).asin();
-        let rate = torque.amplitude * start.cos() * torque.angular_frequency;
+        let start = asin(limit / torque.amplitude);
+        let rate = torque.amplitude * cos(start) * torque.angular_frequency;
         // Per period: velocity times duration / omega_e, over 2 pi / omega_e.
         kick(setting, normal_stiffness, corner) * rate * slide(torque.amplitude, limit, start).duration
     };
@@ -51,9 +52,9 @@ pub(super) fn kick(setting: &Setting, normal_stiffness: f64, corner: Corner) -> 
     } else {
         (setting.friction, -1.0)
     };
-    let (s_1, c_1) = setting.left_angle().sin_cos();
-    let (s_2, c_2) = setting.right_angle().sin_cos();
-    let (s_12, c_12) = (2.0 * setting.half_angle).sin_cos();
+    let (s_1, c_1) = sin_cos(setting.left_angle());
+    let (s_2, c_2) = sin_cos(setting.right_angle());
+    let (s_12, c_12) = sin_cos(2.0 * setting.half_angle);
     // Rates of P 4.29 and 4.30 with R (tau_1 + tau_2) = -T, contact 2 sliding already; without tilt neither does.
     let both = -rate / setting.radius;
     let tau_2 = if setting.tilt > 0.0 {

@@ -1,6 +1,7 @@
 //! Torques at which the disk begins to slide (P 5.3 to 5.5), and where a contact opens (P 4.50, 5.2.1).
 
 use super::{Acceleration, Corner, Setting, point};
+use crate::elementary::{acos, atan, cos, hypot, powi, sin_cos};
 
 /// Torques that friction can hold \[N m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +26,7 @@ impl Limits {
     /// `A_0`, the limit without tilt, P 5.4: `m g R mu / ((1 + mu^2) cos theta_0)` \[N m\].
     pub fn untilted(setting: &Setting) -> f64 {
         let mu = setting.friction;
-        setting.weight() * setting.radius * mu / ((1.0 + mu * mu) * setting.half_angle.cos())
+        setting.weight() * setting.radius * mu / ((1.0 + mu * mu) * cos(setting.half_angle))
     }
 }
 
@@ -35,7 +36,7 @@ impl Limits {
 pub fn limits(setting: &Setting) -> Limits {
     let torque = |corner| {
         let departure = point(setting, Acceleration::default(), corner).departure;
-        2.0 * setting.radius.powi(2) * setting.tangential_stiffness * departure.abs()
+        2.0 * powi(setting.radius, 2) * setting.tangential_stiffness * departure.abs()
     };
     Limits {
         clockwise: torque(Corner::S1),
@@ -47,7 +48,7 @@ pub fn limits(setting: &Setting) -> Limits {
 ///
 /// P 5.2.1. Zero or negative where a contact can open without tilt.
 pub fn detachment_tilt(setting: &Setting) -> f64 {
-    setting.half_angle - setting.friction.atan()
+    setting.half_angle - atan(setting.friction)
 }
 
 /// Friction below which neither contact opens in any slide while the centre has this acceleration, P 4.50.
@@ -57,7 +58,7 @@ pub fn detachment_tilt(setting: &Setting) -> f64 {
 pub fn detachment_friction(setting: &Setting, acceleration: Acceleration) -> f64 {
     let down = setting.gravity + acceleration.y;
     let of = |angle: f64, sideways: f64| {
-        let (sine, cosine) = angle.sin_cos();
+        let (sine, cosine) = sin_cos(angle);
         let (across, along) = (down * sine - sideways * cosine, down * cosine + sideways * sine);
         match (across > 0.0, along > 0.0) {
             (false, _) => 0.0,
@@ -74,7 +75,7 @@ pub fn detachment_friction(setting: &Setting, acceleration: Acceleration) -> f64
 /// the contacts open first.
 pub fn critical_tilt(setting: &Setting, amplitude: f64) -> Option<f64> {
     let mu = setting.friction;
-    let ratio = amplitude / (Limits::untilted(setting) * mu.hypot(1.0));
-    let tilt = (ratio.min(1.0).acos() - mu.atan()).max(0.0);
+    let ratio = amplitude / (Limits::untilted(setting) * hypot(mu, 1.0));
+    let tilt = (acos(ratio.min(1.0)) - atan(mu)).max(0.0);
     (tilt <= detachment_tilt(setting)).then_some(tilt)
 }

@@ -1,6 +1,7 @@
 //! Torques at the corners and their mean: why random supports turn the disk backwards (P 5.3.3).
 
 use super::{Acceleration, Corner, Setting, point};
+use crate::elementary::powi;
 
 /// Quasi-static torques on the disk at the corners \[N m\], P 5.15 to 5.18, and their mean, P 5.21.
 ///
@@ -35,7 +36,7 @@ impl MeanTorques {
 pub fn mean_torques(setting: &Setting) -> MeanTorques {
     let torque = |corner| {
         let departure = point(setting, Acceleration::default(), corner).departure;
-        -2.0 * setting.radius.powi(2) * setting.tangential_stiffness * departure
+        -2.0 * powi(setting.radius, 2) * setting.tangential_stiffness * departure
     };
     MeanTorques {
         s1: torque(Corner::S1),

@@ -2,6 +2,7 @@
 
 use super::balance::loads;
 use super::{Acceleration, Setting, Tangential};
+use crate::elementary::sin_cos;
 
 /// A state of the tangential springs: `delta_theta` and `Theta` of P 4.14 and 4.15.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,7 +74,7 @@ impl Corner {
 /// jam the disk: no compression of the springs makes both contacts slide, the region is open there and T2 no corner of it.
 pub fn point(setting: &Setting, acceleration: Acceleration, corner: Corner) -> Point {
     let (w_1, w_2) = loads(setting, acceleration);
-    let (s_12, c_12) = (2.0 * setting.half_angle).sin_cos();
+    let (s_12, c_12) = sin_cos(2.0 * setting.half_angle);
     let mu = setting.friction;
     let (difference, sum) = (w_1 - w_2, w_1 + w_2);
     let both = 2.0 * s_12 * s_12 * (1.0 + mu * mu);

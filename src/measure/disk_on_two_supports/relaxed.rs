@@ -7,6 +7,7 @@
 //! `tan^2 theta_0`.
 
 use super::{Corner, Limits, Point, Setting, Tangential};
+use crate::elementary::{hypot, sin_cos};
 use crate::error::{Error, Result, Shortest};
 
 /// Corners of soft contacts at rest.
@@ -127,9 +128,9 @@ impl Relaxed {
         let (mut normal, mut tangential) = ([0.0; 2], [0.0; 2]);
         let directions = [(setting.left_angle(), 1.0), (setting.right_angle(), -1.0)];
         for (i, (angle, side)) in directions.into_iter().enumerate() {
-            let (sine, cosine) = angle.sin_cos();
+            let (sine, cosine) = sin_cos(angle);
             let (across, along) = (x + side * sine, y + cosine);
-            let distance = across.hypot(along);
+            let distance = hypot(across, along);
             let (n_x, n_y) = (across / distance, along / distance);
             // 1 - distance, without cancellation.
             let overlap = -(x * (x + 2.0 * side * sine) + y * (y + 2.0 * cosine)) / (1.0 + distance);

@@ -9,6 +9,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::elementary::{asin, cos, sin};
 use crate::geometry::bracketed_root::falling_root;
 
 /// `A_e sin(omega_e t)`, P 5.1.
@@ -36,10 +37,10 @@ pub struct Slide {
 /// 1e-16 / (amplitude / resistance - 1).
 pub fn slide(amplitude: f64, resistance: f64, start: f64) -> Slide {
     // cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2) keeps the digits of short slides.
-    let speed = |x: f64| 2.0 * amplitude * (start + 0.5 * x).sin() * (0.5 * x).sin() - resistance * x;
-    let gain = |x: f64| amplitude * (start + x).sin() - resistance;
+    let speed = |x: f64| 2.0 * amplitude * sin(start + 0.5 * x) * sin(0.5 * x) - resistance * x;
+    let gain = |x: f64| amplitude * sin(start + x) - resistance;
     // Speed falls from where the torque sinks below the resistance until it rises above it again, a period apart.
-    let balance = (resistance / amplitude).min(1.0).asin();
+    let balance = asin((resistance / amplitude).min(1.0));
     let (fastest, slowest) = (PI - balance - start, TAU + balance - start);
     // Each period takes 2 pi L from the speed: so many more go by before it can vanish.
     let more = TAU * (speed(slowest) / (TAU * resistance)).ceil().max(0.0);
@@ -61,7 +62,7 @@ fn turn(amplitude: f64, start: f64, x: f64) -> f64 {
         let square = x * x;
         -x * square / 12.0 * (1.0 - square / 40.0 * (1.0 - square / 112.0 * (1.0 - square / 216.0)))
     } else {
-        x * half.cos() - 2.0 * half.sin()
+        x * cos(half) - 2.0 * sin(half)
     };
-    amplitude * (start + half).cos() * lag
+    amplitude * cos(start + half) * lag
 }

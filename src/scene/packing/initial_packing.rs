@@ -6,6 +6,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::drive::HeldDisk;
+use crate::elementary::powi;
 use crate::geometry::{Disk, Wall};
 use crate::packing::{RadiusClass, RadiusDistribution, advancing_front};
 use crate::scene::{Error, Result, Unit, Values, Warning};
@@ -96,7 +97,7 @@ pub fn masses(disks: &[Disk], values: &Values) -> Vec<f64> {
     let surface_density = values.real("disk.surface_density");
     disks
         .iter()
-        .map(|disk| surface_density * std::f64::consts::PI * disk.radius.powi(2))
+        .map(|disk| surface_density * std::f64::consts::PI * powi(disk.radius, 2))
         .collect()
 }
 

@@ -10,6 +10,7 @@
 
 use crate::contact::{ContactLaws, LinearDashpot, NormalForce, TangentialSpring};
 use crate::drive::FollowsInput;
+use crate::elementary::hypot;
 use crate::engine::Engine;
 use crate::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
 use crate::engine::dem::{Breakdown, FixedGrid, SoftDiskSetup, TimeStepLimits};
@@ -123,7 +124,7 @@ fn gaps_are_open(disks: &[Disk], walls: &[Wall]) -> bool {
     let mut by_height: Vec<&Disk> = disks.iter().collect();
     by_height.sort_by(|a, b| a.y.total_cmp(&b.y));
     let largest = disks.iter().map(|disk| disk.radius).fold(0.0, f64::max);
-    let pair_is_open = |a: &Disk, b: &Disk| (a.x - b.x).hypot(a.y - b.y) > a.radius + b.radius;
+    let pair_is_open = |a: &Disk, b: &Disk| hypot(a.x - b.x, a.y - b.y) > a.radius + b.radius;
     by_height.iter().enumerate().all(|(index, disk)| {
         let near = by_height[index + 1..]
             .iter()

@@ -3,6 +3,7 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
+use crate::elementary::powi;
 use crate::engine::event_driven::{PeriodicAcross, Region};
 use crate::error::{Error, Result};
 use crate::geometry::{Disk, SawtoothProfile, Vector2};
@@ -164,5 +165,5 @@ pub fn masses(disks: &[Disk], values: &Values) -> Vec<f64> {
         return vec![mass; disks.len()];
     }
     let mean = 0.5 * (values.real("disk.radius_min") + values.real("disk.radius_max"));
-    disks.iter().map(|disk| mass * (disk.radius / mean).powi(2)).collect()
+    disks.iter().map(|disk| mass * powi(disk.radius / mean, 2)).collect()
 }

@@ -1,5 +1,6 @@
 //! The Verlet list, built anew at the start of the first step that could outrun it.
 
+use crate::elementary::hypot;
 use crate::engine::dem::candidates::{make_room, near_walls, renew};
 use crate::engine::dem::cell_grid::{CellGrid, Cloud};
 use crate::engine::dem::fixed_grid::GridState;
@@ -84,7 +85,7 @@ impl NeighbourList {
         if farthest < limit * limit && (end.base - disks.base_at_list_build).abs() < limit {
             return Ok(());
         }
-        let speeds = disks.velocities.iter().map(|velocity| velocity[0].hypot(velocity[1]));
+        let speeds = disks.velocities.iter().map(|velocity| hypot(velocity[0], velocity[1]));
         let base_moves = (end.base - state.base.displacement).abs();
         let distance = (duration * speeds.fold(0.0, f64::max)).max(base_moves);
         constants.check_distance(distance, end.time)?;

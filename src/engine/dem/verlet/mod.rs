@@ -15,6 +15,7 @@ use std::marker::PhantomData;
 
 use crate::contact::{LinearDashpot, NormalForce};
 use crate::drive::{Drive, Motion};
+use crate::elementary::hypot;
 use crate::error::are_sane;
 use crate::geometry::Disk;
 
@@ -164,7 +165,7 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
         let mut elastic = 0.0;
         for pair in &disks.pairs {
             let (a, b) = (positions[pair.first as usize], positions[pair.second as usize]);
-            elastic += energy(pair.radius_sum - (a[0] - b[0]).hypot(a[1] - b[1]), &pair.spring);
+            elastic += energy(pair.radius_sum - hypot(a[0] - b[0], a[1] - b[1]), &pair.spring);
         }
         for contact in &disks.wall_contacts {
             let [x, y, _] = positions[contact.disk as usize];

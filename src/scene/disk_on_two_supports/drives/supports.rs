@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::DiskOnTwoSupportsDrive;
 use crate::drive::excitation::{NoiseSign, RandomSupports, SineSupports, Vibration};
+use crate::elementary::sin_cos;
 use crate::scene::disk_on_two_supports::DiskOnTwoSupportsScene;
 use crate::scene::disks_on_base::names;
 use crate::scene::drives::sine::sine_of;
@@ -217,7 +218,7 @@ impl DiskOnTwoSupportsDrive for SineSupports {
     }
 
     fn new(_start_time: f64, _time_step: f64, values: &Values) -> Self {
-        let (sine, cosine) = values.real("drive.direction").sin_cos();
+        let (sine, cosine) = sin_cos(values.real("drive.direction"));
         Self {
             sine: sine_of(values),
             phase_difference: values.real("drive.phase_difference"),

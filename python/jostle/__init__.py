@@ -1,0 +1,46 @@
+"""Vibrated granular disks.
+
+>>> import jostle
+>>> sim = jostle.Simulation("ratchet", disks=50, seed=1, **{"drive.frequency": 25.0})
+>>> data = sim.run(1.0, every=0.01)
+>>> data["disk.x"].dims
+('time', 'disk')
+"""
+
+import pandas as pd
+
+from jostle._core import VERSION, State
+from jostle._core import scenes as _scenes
+from jostle.errors import (
+    CallError,
+    DefectError,
+    JostleError,
+    JostleWarning,
+    NoVariableError,
+    ParameterError,
+    StateError,
+    StepError,
+)
+from jostle.simulation import Simulation
+
+__version__ = VERSION
+
+__all__ = [
+    "CallError",
+    "DefectError",
+    "JostleError",
+    "JostleWarning",
+    "NoVariableError",
+    "ParameterError",
+    "Simulation",
+    "State",
+    "StateError",
+    "StepError",
+    "__version__",
+    "scenes",
+]
+
+
+def scenes() -> pd.DataFrame:
+    """Table of what can be simulated: scene, engine, drive, description, smallest and largest number of disks."""
+    return pd.DataFrame(_scenes(), columns=["scene", "engine", "drive", "description", "fewest_disks", "most_disks"])

@@ -1,0 +1,346 @@
+"""A simulation of any scene."""
+
+import copy
+import math
+import warnings
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from numpy.typing import NDArray
+
+from jostle._core import VERSION, Core, State
+from jostle.dataset import dataset
+from jostle.errors import JostleError, JostleWarning, ParameterError
+from jostle.variables import Variable, find, grouped
+
+MOST_VALUES = 2**31
+"""Of one run: 16 GiB. More is a slip of the keyboard."""
+
+
+ROWS_AT_ONCE = 256
+"""Of a run that the engine does in one call: what it holds twice."""
+
+
+class Simulation:
+    """One run of a scene, from time 0 on.
+
+    Its numbers have the same bits as those of the FMU, the C library, the Rust crate and the command line.
+
+    Args:
+        scene: `packing`, `ratchet`, `wedge` or `three_disk`; `jostle.scenes()` lists them.
+        engine: None: the scene's first.
+        drive: what moves the base. None: `sine` if the engine has it. `input` follows the inputs of `step`.
+        disks: number of disks. None: the scene's usual number.
+        values: parameters, and inputs at the start, that differ from their start values. Names with points go in as
+            `**{"drive.frequency": 25.0}`; an option by its name or number.
+
+    Raises:
+        ParameterError: a scene, engine, drive, number or value that is not allowed.
+        NoVariableError: a name that the scene does not have.
+
+    """
+
+    def __init__(
+        self,
+        scene: str,
+        *,
+        engine: str | None = None,
+        drive: str | None = None,
+        disks: int | None = None,
+        **values: float | str,
+    ) -> None:
+        self._core = Core(scene, engine, drive, _whole("disks", disks))
+        self._variables = grouped(self._core.variables())
+        self._set(values)
+        self._core.start()
+        self._views: dict[str, NDArray[np.float64]] = {}
+        for text in self._core.warnings():
+            warnings.warn(text, JostleWarning, stacklevel=2)
+
+    @property
+    def scene(self) -> str:
+        """Name of the scene."""
+        return self._core.names[0]
+
+    @property
+    def engine(self) -> str:
+        """Name of the engine."""
+        return self._core.names[1]
+
+    @property
+    def drive(self) -> str:
+        """What moves the base."""
+        return self._core.names[2]
+
+    @property
+    def disks(self) -> int:
+        """Number of disks."""
+        return self._core.disks
+
+    @property
+    def time(self) -> float:
+        """Time reached [s]."""
+        return self._core.time
+
+    @property
+    def variables(self) -> pd.DataFrame:
+        """Table of the variables: one row a name; causality, kind, unit, range, start, size, options, description."""
+        rows = {
+            v.name: {
+                "causality": v.causality,
+                "kind": v.kind,
+                "unit": v.unit,
+                "minimum": v.minimum,
+                "maximum": v.maximum,
+                "start": v.start,
+                "size": len(v.positions),
+                "options": ", ".join(v.options),
+                "description": v.description,
+            }
+            for v in self._variables.values()
+        }
+        return pd.DataFrame.from_dict(rows, orient="index").rename_axis("name")
+
+    def __getitem__(self, name: str) -> Any:
+        """Value now: a number, or a new array of shape (disks,) for `disk.angle` and its kind.
+
+        Raises:
+            NoVariableError: the scene has no such variable.
+
+        """
+        variable, element = find(self._variables, name, self.scene)
+        if element is not None or not variable.is_array:
+            return self._core.get(variable.positions[element or 0])
+        if variable.kind != "real":
+            return np.array([self._core.get(position) for position in variable.positions])
+        return self.read(name)
+
+    def __setitem__(self, name: str, value: float | str) -> None:
+        """Set an input; it holds until it is set again.
+
+        Raises:
+            NoVariableError: the scene has no such variable.
+            ParameterError: a value out of range.
+            CallError: a parameter, frozen since the start, or an output.
+
+        """
+        self._set({name: value})
+
+    def read(self, name: str, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
+        """Return all elements of an array of reals, such as `disk.angle`, as shape (disks,).
+
+        Args:
+            name: of the array.
+            out: array of doubles that is filled and returned, so that a loop allocates nothing.
+
+        Raises:
+            NoVariableError: the scene has no such variable.
+            ParameterError: a single variable, or `out` has another shape or type.
+
+        """
+        variable, element = find(self._variables, name, self.scene)
+        size = len(variable.positions)
+        if not variable.is_array or element is not None or variable.kind != "real":
+            raise ParameterError.of("name", name, "an array of reals", f"Read {name} as simulation[{name!r}].")
+        if out is None:
+            out = np.empty(size)
+        elif not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != (size,):
+            shape = getattr(out, "shape", None)
+            given = f"{getattr(out, 'dtype', type(out).__name__)} of shape {shape}"
+            allowed = f"float64 of shape ({size},)"
+            raise ParameterError.of("out", given, allowed, f"Make it by numpy.empty({size}).")
+        self._core.read(variable.positions, out)
+        return out
+
+    def view(self, name: str) -> NDArray[np.float64]:
+        """Return a read-only array that shows the present values of `disk.angle` and its kind, shape (disks,).
+
+        It is the same array at every call. Each step, run and restore fills it, so that loops allocate nothing.
+
+        Raises:
+            NoVariableError, ParameterError: as `read`.
+
+        """
+        if name not in self._views:
+            self._views[name] = self.read(name)
+        shown = self._views[name].view()
+        shown.flags.writeable = False
+        return shown
+
+    def step(self, step: float, **inputs: float) -> None:
+        """Do one communication step, under inputs that hold from its begin on.
+
+        With the drive `input` the base follows an extrapolation of the inputs, as in an FMU.
+
+        Args:
+            step: length [s], above 0.
+            inputs: such as `**{"base.displacement": 1e-3, "base.velocity": 0.1}`.
+
+        Raises:
+            StepError: the step cannot be done; the simulation is as before, but for the inputs.
+            ParameterError, NoVariableError: a step or input that is not allowed.
+
+        """
+        if not (math.isfinite(step) and step > 0.0):
+            raise ParameterError.of("step", step, "a time in seconds above 0", "Give a step such as 1e-3.")
+        if inputs:
+            self._set(inputs)
+        self.advance_to(self.time + step)
+
+    def advance_to(self, time: float) -> None:
+        """Advance to a time [s], as one communication step; loops that need exact times take this rather than `step`.
+
+        Raises:
+            StepError: the step cannot be done; the simulation is as before.
+            ParameterError: a time that is not after the present one.
+
+        """
+        self._core.advance_to(float(time))
+        self._refresh()
+
+    def run(self, seconds: float, every: float = 0.01, outputs: Iterable[str] | None = None) -> xr.Dataset:
+        """Advance and sample, the present time included.
+
+        Args:
+            seconds: how long [s].
+            every: time from sample to sample [s]; the last one is at the end in any case.
+            outputs: names, such as `("disk.angle", "base.position")`; None: all outputs.
+
+        Returns:
+            dimensions `time` and, for what each disk has, `disk`; units and descriptions as attributes; the parameters
+            that were set or differ from their start as attributes of the whole. `disk.radius` is a coordinate.
+
+        Raises:
+            StepError: a step cannot be done. The samples before it are in the attribute `partial` of the exception, and
+                of a `KeyboardInterrupt` too; the simulation stands at the last of them.
+            ParameterError, NoVariableError: an argument that is not allowed.
+
+        """
+        sampled = self._outputs(outputs)
+        positions = [p for v in sampled for p in v.positions]
+        times = self._times(float(seconds), float(every), len(positions))
+        columns = np.empty((len(times), len(positions)))
+        rows, stopped = 0, None
+        while rows < len(times) and stopped is None:
+            part = slice(rows, rows + ROWS_AT_ONCE)
+            done, stopped = self._core.sample(times[part].tolist(), positions, columns[part])
+            rows += done
+        self._refresh()
+        found = dataset(times[:rows], columns[:rows], sampled, self._fixed(), self._attributes())
+        if stopped is not None:
+            stopped.partial = found  # type: ignore[attr-defined]
+            if isinstance(stopped, JostleError):
+                stopped.add_note(f"{rows} whole samples are in the attribute `partial` of this exception.")
+            raise stopped
+        return found
+
+    def save(self) -> State:
+        """Return the state in memory, for `restore`."""
+        return self._core.save()
+
+    def restore(self, state: State | bytes) -> None:
+        """Go back to a state of this scene, from `save` or `to_bytes`; the same bits follow.
+
+        Raises:
+            StateError: damaged bytes, or a state of another scene or version. The simulation is then as before.
+
+        """
+        if isinstance(state, State):
+            self._core.restore(state)
+        else:
+            self._core.restore_bytes(bytes(state))
+        self._refresh()
+
+    def to_bytes(self) -> bytes:
+        """Return the state for a file or another process; FMU, C library and Rust crate take the same bytes."""
+        return self._core.to_bytes()
+
+    def limit_work(self, most: int) -> None:
+        """Refuse a step of more events (or time steps of ten soft disks) than this."""
+        self._core.limit_work(most)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle, with the state: processes and files take simulations as they are."""
+        return _restored, (self.scene, self.engine, self.drive, self.disks, self.to_bytes())
+
+    def __copy__(self) -> "Simulation":
+        """Return an independent simulation in the same state."""
+        return copy.deepcopy(self)
+
+    def __repr__(self) -> str:
+        """Say what it is and where it stands."""
+        size = f", {self.disks} disks" if self.disks > 1 else ""
+        return f"<jostle.Simulation: {self.scene}, {self.engine}, drive {self.drive}{size}, t = {self.time:g} s>"
+
+    def _refresh(self) -> None:
+        for name, array in self._views.items():
+            self.read(name, array)
+
+    def _set(self, values: dict[str, Any]) -> None:
+        given = []
+        for name, value in values.items():
+            variable, element = find(self._variables, name, self.scene)
+            if variable.is_array and element is None:
+                raise ParameterError.of(name, value, "one element", f"Set {variable.elements[0]} and so on.")
+            given.append((variable.positions[element or 0], value))
+        self._core.set(given)
+
+    def _times(self, seconds: float, every: float, width: int) -> NDArray[np.float64]:
+        for name, value in (("seconds", seconds), ("every", every)):
+            if not (math.isfinite(value) and value > 0.0):
+                raise ParameterError.of(name, value, "a time in seconds above 0", "Give a time such as 10 or 1e-3.")
+        # A remainder below a billionth of a sample is rounding, not a sample: as the command line does it.
+        last = max(math.ceil(seconds / every - 1e-9), 1)
+        if last * (width + 1) > MOST_VALUES:
+            allowed = f"at most {MOST_VALUES:.2g} values of one run, here {last * (width + 1):.2g}"
+            raise ParameterError.of(
+                "every", f"{every} s", allowed, "Sample less often, fewer outputs, or run in parts."
+            )
+        after: NDArray[np.float64] = self.time + np.minimum(np.arange(last + 1) * every, seconds)
+        return after
+
+    def _outputs(self, names: Iterable[str] | None) -> list[Variable]:
+        if names is None:
+            return [v for v in self._variables.values() if v.causality == "output"]
+        if isinstance(names, str):
+            names = (names,)
+        found = []
+        for name in dict.fromkeys(names):
+            variable, element = find(self._variables, name, self.scene)
+            if element is not None:
+                raise ParameterError.of("outputs", name, "whole arrays", f"Take {variable.name}, then [:, {element}].")
+            found.append(variable)
+        return found
+
+    def _fixed(self) -> dict[str, tuple[Variable, Any]]:
+        arrays = [v for v in self._variables.values() if v.causality == "calculated" and v.is_array]
+        return {v.name: (v, self.read(v.name)) for v in arrays}
+
+    def _attributes(self) -> dict[str, Any]:
+        names = {"scene": self.scene, "engine": self.engine, "drive": self.drive, "disks": self.disks}
+        parameters = [v for v in self._variables.values() if v.causality == "parameter" and not v.is_array]
+        return names | {"jostle_version": VERSION} | {v.name: self._core.get(v.positions[0]) for v in parameters}
+
+
+def _whole(name: str, value: Any) -> int | None:
+    """Return a number of disks that Rust takes, or say why not."""
+    if value is None:
+        return None
+    try:
+        number = value.__index__()
+    except AttributeError:
+        number = -1
+    if not 0 <= number < 2**32:
+        raise ParameterError.of(name, value, "a whole number, 0 or more", "jostle.scenes() says how many.")
+    return int(number)
+
+
+def _restored(scene: str, engine: str, drive: str, disks: int, state: bytes) -> Simulation:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", JostleWarning)  # told when it was made
+        simulation = Simulation(scene, engine=engine, drive=drive, disks=disks)
+    simulation.restore(state)
+    return simulation

@@ -1,0 +1,86 @@
+"""The variables of a scene, by name: single ones, and those of which each disk has one."""
+
+import difflib
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from jostle.errors import NoVariableError
+
+if TYPE_CHECKING:
+    from jostle._core import Row
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """What is known of a variable, or of an array of them.
+
+    Attributes:
+        name: such as `base.position`, or `disk.angle` for `disk.angle[1]`, `disk.angle[2]`, ..., or `contact.state` for
+            `contact[1].state`, `contact[2].state`.
+        causality: `parameter`, `calculated` (from the parameters), `input` or `output`.
+        kind: `real`, `integer` or `option`.
+        unit: such as `m/s`; `1` for pure numbers.
+        minimum: smallest allowed value.
+        maximum: largest allowed value.
+        start: value if none is given; NaN if the scene computes it.
+        options: names of the options.
+        description: one sentence.
+        positions: of its elements in the table of the scene.
+        elements: their names; empty for a single variable.
+
+    """
+
+    name: str
+    causality: str
+    kind: str
+    unit: str
+    minimum: float
+    maximum: float
+    start: float
+    options: tuple[str, ...]
+    description: str
+    positions: tuple[int, ...]
+    elements: tuple[str, ...]
+
+    @property
+    def is_array(self) -> bool:
+        """Whether it has elements with numbers."""
+        return bool(self.elements)
+
+
+def grouped(rows: "Iterable[Row]") -> dict[str, Variable]:
+    """Variables by name; those that differ only in a number in brackets as one."""
+    found: dict[str, Variable] = {}
+    for position, (name, causality, kind, unit, low, high, start, options, text) in enumerate(rows):
+        base = re.sub(r"\[\d+\]", "", name)
+        if base != name and base in found:
+            first = found[base]
+            found[base] = replace(first, positions=(*first.positions, position), elements=(*first.elements, name))
+        else:
+            elements = (name,) if base != name else ()
+            found[base] = Variable(
+                base, causality, kind, unit, low, high, start, tuple(options), text, (position,), elements
+            )
+    return found
+
+
+def find(variables: dict[str, Variable], name: str, scene: str) -> tuple[Variable, int | None]:
+    """Return the variable of this name, and which element `disk.angle[3]` means, from 0; None for all.
+
+    Raises:
+        NoVariableError: there is none; says which are alike.
+
+    """
+    if name in variables:
+        return variables[name], None
+    variable = variables.get(re.sub(r"\[[^]]*\]", "", name))
+    if variable is not None and variable.is_array:
+        if name in variable.elements:
+            return variable, variable.elements.index(name)
+        remedy = f"They go from {variable.elements[0]} to {variable.elements[-1]}."
+        raise NoVariableError(f"{scene} has no variable {name}. {remedy}", remedy)
+    alike = difflib.get_close_matches(name, variables, n=3, cutoff=0.5)
+    hint = f"Did you mean {' or '.join(alike)}?" if alike else "The table `variables` of the simulation has all names."
+    raise NoVariableError(f"{scene} has no variable {name}. {hint}", hint)

@@ -1,0 +1,92 @@
+//! How every call enters a simulation: locked without waiting, the interpreter free, panics caught.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Mutex, TryLockError};
+
+use jostle::scene::DynSimulation;
+use jostle::{Error, Result};
+use pyo3::prelude::*;
+
+use crate::refusal;
+
+/// A simulation, and whether a panic has shown a defect in it.
+pub struct Held {
+    pub simulation: Box<dyn DynSimulation>,
+    failed: bool,
+}
+
+/// What a call wants.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Access {
+    /// Allowed after a failure.
+    Read,
+    /// Refused after a failure.
+    Change,
+    /// Ends a failure if it is done.
+    Restore,
+}
+
+impl Held {
+    pub fn new(simulation: Box<dyn DynSimulation>) -> Mutex<Self> {
+        Mutex::new(Self {
+            simulation,
+            failed: false,
+        })
+    }
+
+    fn run<T>(&mut self, access: Access, work: impl FnOnce(&mut dyn DynSimulation) -> Result<T>) -> Outcome<T> {
+        if self.failed && access == Access::Change {
+            return Outcome::Panicked("this simulation has failed. Restore a saved state, or make it anew.".into());
+        }
+        match catch_unwind(AssertUnwindSafe(|| work(&mut *self.simulation))) {
+            Ok(Ok(value)) => {
+                self.failed &= access != Access::Restore;
+                Outcome::Done(value)
+            }
+            Ok(Err(error)) => Outcome::Refused(error),
+            Err(panic) => {
+                self.failed = true;
+                Outcome::Panicked(format!(
+                    "a defect of jostle: {}. This simulation has failed",
+                    text_of(&*panic)
+                ))
+            }
+        }
+    }
+}
+
+enum Outcome<T> {
+    Done(T),
+    Refused(Error),
+    Panicked(String),
+}
+
+/// Does `work` in the simulation, while other threads of Python run.
+///
+/// # Errors
+/// The refusal of `work`, another thread in the simulation, or a defect.
+pub fn enter<T: Send>(
+    py: Python<'_>,
+    held: &Mutex<Held>,
+    access: Access,
+    work: impl FnOnce(&mut dyn DynSimulation) -> Result<T> + Send,
+) -> PyResult<T> {
+    let outcome = py.detach(|| match held.try_lock() {
+        Ok(mut guard) => Some(guard.run(access, work)),
+        Err(TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner().run(access, work)),
+        Err(TryLockError::WouldBlock) => None,
+    });
+    match outcome {
+        Some(Outcome::Done(value)) => Ok(value),
+        Some(Outcome::Refused(error)) => Err(refusal::exception(py, &error)),
+        Some(Outcome::Panicked(message)) => Err(refusal::defect(py, &message)),
+        None => Err(refusal::busy(py)),
+    }
+}
+
+fn text_of(panic: &(dyn std::any::Any + Send)) -> &str {
+    let literal = panic.downcast_ref::<&str>().copied();
+    literal
+        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("no message")
+}

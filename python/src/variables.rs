@@ -1,0 +1,86 @@
+//! What there is, as plain tuples: scenes, and the variables of a scene.
+
+use jostle::scene::catalogue::{MODELS, Names};
+use jostle::scene::{Causality, Kind, Value, Variable};
+use pyo3::prelude::*;
+
+/// Scene, engine, drive, description and allowed numbers of disks of everything that can be simulated.
+#[pyfunction]
+pub fn scenes() -> Vec<(&'static str, &'static str, &'static str, String, u32, u32)> {
+    let row = |info: jostle::scene::ModelInfo| {
+        let (names, disks) = (Names::from(&info), &info.structure[0].range);
+        (
+            names.scene,
+            names.engine,
+            names.drive,
+            info.description.to_string(),
+            *disks.start(),
+            *disks.end(),
+        )
+    };
+    MODELS.iter().map(|model| row((model.info)())).collect()
+}
+
+/// Name, causality, kind, unit, smallest, largest and start value, options, description.
+pub type Row = (
+    String,
+    &'static str,
+    &'static str,
+    &'static str,
+    f64,
+    f64,
+    f64,
+    Vec<&'static str>,
+    String,
+);
+
+/// A variable as a tuple.
+pub fn row(variable: &Variable) -> Row {
+    let (kind, unit, min, max, options) = match &variable.kind {
+        Kind::Real(quantity) => ("real", quantity.unit.name, quantity.min, quantity.max, vec![]),
+        Kind::Integer { range, .. } | Kind::Long { range, .. } => {
+            ("integer", "1", *range.start() as f64, *range.end() as f64, vec![])
+        }
+        Kind::Enumeration { options, .. } => {
+            let names: Vec<&str> = options.iter().map(|(name, _)| *name).collect();
+            ("option", "1", 1.0, names.len() as f64, names)
+        }
+    };
+    let causality = match variable.causality {
+        Causality::Parameter => "parameter",
+        Causality::CalculatedParameter => "calculated",
+        Causality::Input => "input",
+        Causality::Output => "output",
+    };
+    let start = if variable.causality.is_settable() {
+        variable.start().to_f64()
+    } else {
+        f64::NAN
+    };
+    (
+        variable.name.clone(),
+        causality,
+        kind,
+        unit,
+        min,
+        max,
+        start,
+        options,
+        variable.description.clone(),
+    )
+}
+
+/// The value of a variable that a Python object stands for: a number, or a text as on the command line.
+///
+/// # Errors
+/// An object of another kind, said as the command line says it.
+pub fn value(variable: &Variable, given: &Bound<'_, PyAny>) -> jostle::Result<Value> {
+    let found = match variable.kind {
+        Kind::Real(_) => given.extract().map(Value::Real).ok(),
+        _ => given.extract().map(Value::Integer).ok(),
+    };
+    match found {
+        Some(value) => Ok(value),
+        None => variable.parse(&given.str().map(|text| text.to_string()).unwrap_or_default()),
+    }
+}

@@ -208,6 +208,7 @@ def test_peers_are_built_and_run():
         (PYTHON, "python", "states"),
         (PYTHON, "python", "refusal"),
         ("python/README.md", "python", "package"),
+        ("README.md", "python", "first-run"),
     ],
 )
 def test_guide_for_python(program: tuple[str, str, str], tmp_path: Path) -> None:

@@ -4,6 +4,8 @@
 //! same one with another C library, shows the first difference. After a change of the physics that is meant:
 //! `UPDATE_SAME_BITS=1 cargo test --test same_bits`, and a line in the change log.
 
+#![allow(clippy::unwrap_used)]
+
 use std::fmt::Write;
 
 use jostle::elementary::{cos, sin};

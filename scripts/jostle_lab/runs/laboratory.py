@@ -84,7 +84,7 @@ class Laboratory:
         return self.records.find(run.key(), None if self.frozen else fetch)
 
     def computed(self, key: str, compute: Callable[[], tuple[Table, float]]) -> Table:
-        """A table that is not that of a run, with its processor time [s], by the name under which it is kept."""
+        """A table that is not that of a run, with its processor time [s], by the name under which it is kept: whole."""
         self.asked[key] = None
         kept = None
         if self.records is not None:
@@ -94,7 +94,10 @@ class Laboratory:
             return kept.table
         self._refuse_if_frozen(1, key)
         table, self._seconds[key] = compute()
-        return table if self.records is None else self.records.add(key, self.version, self._seconds[key], table).table
+        if self.records is None:
+            return table
+        recorded = self.records.add(key, self.version, self._seconds[key], table).table
+        return {name: recorded[name] for name in table}
 
     def _refuse_if_frozen(self, missing: int, title: str) -> None:
         if self.frozen and missing:

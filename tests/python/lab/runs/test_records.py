@@ -107,3 +107,14 @@ def test_a_run_costs_once_and_a_copy_of_the_laboratory_counts_anew(tmp_path: Pat
     for _ in range(2):
         laboratory.computed("made", lambda: (table(), 9.0))
     assert laboratory.spent == 5.0
+
+
+def test_a_table_that_is_computed_anew_is_kept_whole(tmp_path: Path) -> None:
+    """Studies take it as a dictionary, which reads no column of a run's record."""
+    file = tmp_path / "a.parquet"
+    laboratory = Laboratory(Path(__file__), tmp_path, show_progress=False, records=Records(file))
+    assert set(dict(laboratory.computed("made", lambda: (table(), 1.0)).items())) == {"time", "x", "y"}
+    assert laboratory.records is not None
+    laboratory.records.write()
+    kept = Records(file).find("made", None)
+    assert kept is not None and set(kept.table) == {"time", "x", "y"}

@@ -13,7 +13,7 @@ from jostle_lab.statements import Product, Statement
 from jostle_lab.statistics.estimates import Estimate
 from jostle_lab.verdicts import above, every
 from studies.thesis.laboratory.data import Data
-from studies.thesis.laboratory.paths import FULL, more_packings, notes, share_of
+from studies.thesis.laboratory.paths import FULL, at_length, notes, share_of
 
 WEAK, STRONG = 0.3, 4.0
 BINS = np.linspace(0.0, 1.0, 21)
@@ -105,7 +105,7 @@ def bimodal(rho: NDArray[np.float64], data: Data) -> Statement:
             "each by "
             "two errors",
         ),
-        f"records of {data.recording():g} s, P's of 900 s; more packings narrow the densities: {more_packings(data)}",
+        f"longer records part the densities: {at_length(data)}",
     )
 
 

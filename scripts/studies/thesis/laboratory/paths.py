@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from jostle_lab.plots.style import CLOCKWISE, COUNTER_CLOCKWISE, WIDTH
-from jostle_lab.protocol.intervals import thesis
 from jostle_lab.statements import Product, Statement
 from jostle_lab.statistics.estimates import Estimate
 from jostle_lab.verdicts import Judgement, above, below, every, falls, near, vanish
@@ -53,13 +52,11 @@ def effort_note(data: Data) -> str:
 FULL = "`python -m studies laboratory --seconds-per-amplitude 1200 --processes N`, resumable, a packing in each process"
 
 
-def more_packings(data: Data) -> str:
-    """What P's number of packings would cost."""
-    each = data.hours_of_the_thesis() * 3600.0 / 25 / thesis().duration() * 32.0 * data.effort.seconds
+def at_length(data: Data) -> str:
+    """What P's protocol at its length would cost."""
     return (
-        f"{data.packings()} packings so far; P's 25 take {25 * each / 60.0:.0f} min of one processor at this "
-        "length of a "
-        "record (`studies figure 3.2 --seeds 25`)"
+        f"{data.packings()} packings, as many as P has, but {data.recording():g} s in the place of 900 s at each amplitude: "
+        f"P's length takes {data.hours_of_the_thesis():.0f} hours of one processor, {FULL}"
     )
 
 
@@ -178,7 +175,7 @@ def symmetry(data: Data) -> Statement:
         "velocities are symmetrically distributed around zero",
         f"mean velocity over rms velocity {skew}; share of disks that turn counter-clockwise, less one half, {excess}",
         vanish([skew, excess], 0.1),
-        f"the errors allow for more than a tenth: {more_packings(data)}",
+        f"the errors allow for more than a tenth: {at_length(data)}",
     )
 
 
@@ -248,7 +245,7 @@ def saturation(data: Data) -> Statement:
         f"by {typical} by camera, {truth_typical} in truth",
         judgement,
         "the saturation is the camera's: no disk can seem faster than 15 RPM, a quarter turn a picture; in truth the "
-        f"fastest disks go on to turn faster. {more_packings(data)}",
+        f"fastest disks go on to turn faster. {at_length(data)}",
     )
 
 

@@ -15,7 +15,7 @@ from jostle_lab.statistics.rotation import nearest_neighbours_regression
 from jostle_lab.tables import markdown_table
 from jostle_lab.verdicts import above, exact, near
 from studies.thesis.laboratory.data import EYES, Data
-from studies.thesis.laboratory.paths import gamma_ticks, more_packings, notes
+from studies.thesis.laboratory.paths import at_length, gamma_ticks, notes
 
 SAME_SLOPE, SAME_BREAK = 0.2, 0.2
 """What counts as the same exponent (P gives no error and rounds 3.94 and 3.85 to 4), and as the same Gamma."""
@@ -186,7 +186,7 @@ def _slope(data: Data, found: dict[str, Regression], eye: str, range_: Range) ->
         f"{where}: <omega^2> grows as Gamma^{printed:.2f}",
         f"exponent {NAMES[eye]} {ours}{parts}; with points evenly in Gamma {even[0]:.2f}, in ln Gamma {even[1]:.2f}",
         near(ours, printed, SAME_SLOPE),
-        f"{cause}; {more_packings(data)}",
+        f"{cause}; {at_length(data)}",
     )
 
 
@@ -225,7 +225,7 @@ def _transition(data: Data, curve: Regression, name: str) -> Statement:
         near(ours, 1.6, SAME_BREAK),
         "ours changes where the disks leave the bottom, Gamma = 1, as P's simulations do (Fig. 3.6); P suspects "
         "stiffness "
-        f"and viscosity of the material (3.1), which are those of P 3.2 here; {more_packings(data)}",
+        f"and viscosity of the material (3.1), which are those of P 3.2 here; {at_length(data)}",
     )
 
 

@@ -13,7 +13,7 @@ from jostle_lab.statistics.regression import HIGH, Regression, within
 from jostle_lab.statistics.rotation import squared_correlation
 from jostle_lab.verdicts import above, every, falls, near, rises
 from studies.thesis.laboratory.data import EYES, Data
-from studies.thesis.laboratory.paths import mean_gammas, more_packings, notes, over_packings
+from studies.thesis.laboratory.paths import at_length, mean_gammas, notes, over_packings
 from studies.thesis.laboratory.regression import NAMES, STYLES
 
 PRINTED = {"correlation": 0.95, "deviation": 0.4}
@@ -172,7 +172,7 @@ def fluctuations(data: Data) -> Statement:
         "near the threshold both fluctuate more than far from it, perhaps since Gamma is uncertain",
         f"standard deviation over packings at Gamma 1.2-2.1 against 2.6-4.6: {'; '.join(words)}",
         every([above(r, 1.0) for r in ratios], "ratio of the scatter above 1 by two errors, both"),
-        f"{more_packings(data)}. Gamma is known to half a per cent here, so no regimes are mixed; P suspects that "
+        f"{at_length(data)}. Gamma is known to half a per cent here, so no regimes are mixed; P suspects that "
         "mixture itself, and its own "
         "simulations have none of it",
     )

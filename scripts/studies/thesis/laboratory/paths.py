@@ -55,7 +55,7 @@ FULL = "`python -m studies laboratory --seconds-per-amplitude 1200 --processes N
 def at_length(data: Data) -> str:
     """What P's protocol at its length would cost."""
     return (
-        f"{data.packings()} packings, as many as P has, but {data.recording():g} s in the place of 900 s at each amplitude: "
+        f"{data.packings()} packings (P: 25) for {data.recording():g} s (P: 900 s) at each amplitude; "
         f"P's length takes {data.hours_of_the_thesis():.0f} hours of one processor, {FULL}"
     )
 

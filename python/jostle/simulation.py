@@ -11,9 +11,10 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
+from jostle import arguments
 from jostle._core import VERSION, Core, State
 from jostle.dataset import dataset
-from jostle.errors import JostleError, JostleWarning, ParameterError
+from jostle.errors import JostleError, JostleWarning, NoVariableError, ParameterError, StateError, StepError
 from jostle.variables import Variable, find, grouped
 
 MOST_VALUES = 2**31
@@ -43,6 +44,10 @@ class Simulation:
 
     """
 
+    __slots__ = ("__weakref__", "_core", "_variables", "_views")
+    __iter__ = None
+    """Names are looked up; `variables` lists them."""
+
     def __init__(
         self,
         scene: str,
@@ -52,13 +57,23 @@ class Simulation:
         disks: int | None = None,
         **values: float | str,
     ) -> None:
-        self._core = Core(scene, engine, drive, _whole("disks", disks))
-        self._variables = grouped(self._core.variables())
+        table = "jostle.scenes() lists what there is."
+        arguments.text("scene", scene, table)
+        for name, value in (("engine", engine), ("drive", drive)):
+            if value is not None:
+                arguments.text(name, value, table)
+        self._prepare(scene, engine, drive, disks)
         self._set(values)
         self._core.start()
-        self._views: dict[str, NDArray[np.float64]] = {}
         for text in self._core.warnings():
             warnings.warn(text, JostleWarning, stacklevel=2)
+
+    def _prepare(self, scene: str, engine: str | None, drive: str | None, disks: int | None) -> None:
+        if disks is not None:
+            disks = arguments.whole("disks", disks, 0, 2**32 - 1, "jostle.scenes() says how many a scene takes.")
+        self._core = Core(scene, engine, drive, disks)
+        self._variables = grouped(self._core.variables())
+        self._views: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
 
     @property
     def scene(self) -> str:
@@ -82,7 +97,7 @@ class Simulation:
 
     @property
     def time(self) -> float:
-        """Time reached [s]."""
+        """Time reached [s]; other threads may read it while a step is done."""
         return self._core.time
 
     @property
@@ -118,6 +133,14 @@ class Simulation:
             return np.array([self._core.get(position) for position in variable.positions])
         return self.read(name)
 
+    def __contains__(self, name: object) -> bool:
+        """Whether the scene has a variable of this name."""
+        try:
+            find(self._variables, name, self.scene)  # type: ignore[arg-type]
+        except NoVariableError:
+            return False
+        return True
+
     def __setitem__(self, name: str, value: float | str) -> None:
         """Set an input; it holds until it is set again.
 
@@ -147,10 +170,15 @@ class Simulation:
             raise ParameterError.of("name", name, "an array of reals", f"Read {name} as simulation[{name!r}].")
         if out is None:
             out = np.empty(size)
-        elif not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != (size,):
+        elif (
+            not isinstance(out, np.ndarray)
+            or out.dtype != np.float64
+            or out.shape != (size,)
+            or not (out.flags.carray and out.flags.aligned)
+        ):
             shape = getattr(out, "shape", None)
             given = f"{getattr(out, 'dtype', type(out).__name__)} of shape {shape}"
-            allowed = f"float64 of shape ({size},)"
+            allowed = f"float64 of shape ({size},), contiguous and writable"
             raise ParameterError.of("out", given, allowed, f"Make it by numpy.empty({size}).")
         self._core.read(variable.positions, out)
         return out
@@ -165,30 +193,34 @@ class Simulation:
 
         """
         if name not in self._views:
-            self._views[name] = self.read(name)
-        shown = self._views[name].view()
-        shown.flags.writeable = False
-        return shown
+            filled = self.read(name)
+            filled.flags.writeable = False
+            self._views[name] = filled, filled.view()
+        return self._views[name][1]
 
     def step(self, step: float, **inputs: float) -> None:
-        """Do one communication step, under inputs that hold from its begin on.
+        """Do one communication step.
 
-        With the drive `input` the base follows an extrapolation of the inputs, as in an FMU.
+        With the drive `input` the base follows an extrapolation of the inputs, as in an FMU. Inputs are those at the
+        begin of the step, that is at the present `time`.
 
         Args:
             step: length [s], above 0.
             inputs: such as `**{"base.displacement": 1e-3, "base.velocity": 0.1}`.
 
         Raises:
-            StepError: the step cannot be done; the simulation is as before, but for the inputs.
+            StepError: the step cannot be done; the simulation is as before.
             ParameterError, NoVariableError: a step or input that is not allowed.
 
         """
-        if not (math.isfinite(step) and step > 0.0):
-            raise ParameterError.of("step", step, "a time in seconds above 0", "Give a step such as 1e-3.")
-        if inputs:
-            self._set(inputs)
-        self.advance_to(self.time + step)
+        length = arguments.seconds("step", step)
+        before = {name: self[name] for name in inputs}
+        self._set(inputs)
+        try:
+            self.advance_to(self.time + length)
+        except JostleError:
+            self._set(before)
+            raise
 
     def advance_to(self, time: float) -> None:
         """Advance to a time [s], as one communication step; loops that need exact times take this rather than `step`.
@@ -198,7 +230,7 @@ class Simulation:
             ParameterError: a time that is not after the present one.
 
         """
-        self._core.advance_to(float(time))
+        self._core.advance_to(arguments.instant("time", time))
         self._refresh()
 
     def run(self, seconds: float, every: float = 0.01, outputs: Iterable[str] | None = None) -> xr.Dataset:
@@ -210,48 +242,56 @@ class Simulation:
             outputs: names, such as `("disk.angle", "base.position")`; None: all outputs.
 
         Returns:
-            dimensions `time` and, for what each disk has, `disk`; units and descriptions as attributes; the parameters
-            that were set or differ from their start as attributes of the whole. `disk.radius` is a coordinate.
+            dimensions `time` and, for what each disk has, `disk` (the contacts of `three_disk`: `contact`); units and
+            descriptions as attributes, the parameters as attributes of the whole. `disk.radius` is a coordinate.
 
         Raises:
             StepError: a step cannot be done. The samples before it are in the attribute `partial` of the exception, and
-                of a `KeyboardInterrupt` too; the simulation stands at the last of them.
+                of a `KeyboardInterrupt` too; the simulation stands at the last of them. Ctrl-C is noticed after each
+                sample.
             ParameterError, NoVariableError: an argument that is not allowed.
 
         """
         sampled = self._outputs(outputs)
         positions = [p for v in sampled for p in v.positions]
-        times = self._times(float(seconds), float(every), len(positions))
-        columns = np.empty((len(times), len(positions)))
-        rows, stopped = 0, None
-        while rows < len(times) and stopped is None:
-            part = slice(rows, rows + ROWS_AT_ONCE)
-            done, stopped = self._core.sample(times[part].tolist(), positions, columns[part])
-            rows += done
-        self._refresh()
-        found = dataset(times[:rows], columns[:rows], sampled, self._fixed(), self._attributes())
-        if stopped is not None:
-            stopped.partial = found  # type: ignore[attr-defined]
-            if isinstance(stopped, JostleError):
-                stopped.add_note(f"{rows} whole samples are in the attribute `partial` of this exception.")
-            raise stopped
-        return found
+        rows, times, columns = 0, np.empty(0), np.empty((0, len(positions)))
+        try:
+            times = self._times(
+                arguments.seconds("seconds", seconds), arguments.seconds("every", every), len(positions)
+            )
+            columns = _table(len(times), len(positions))
+            while rows < len(times):
+                part = slice(rows, rows + ROWS_AT_ONCE)
+                done, stopped = self._core.sample(times[part].tolist(), positions, columns[part])
+                rows += done
+                if stopped is not None:
+                    raise stopped
+            self._refresh()
+            return self._dataset(times, columns, sampled)
+        except (StepError, KeyboardInterrupt) as error:
+            self._refresh()
+            error.partial = self._dataset(times[:rows], columns[:rows], sampled)  # type: ignore[union-attr]
+            error.add_note(f"{rows} whole samples are in the attribute `partial` of this exception.")
+            raise
 
     def save(self) -> State:
-        """Return the state in memory, for `restore`."""
+        """Return the state in memory, for `restore`. To pickle, take the simulation itself or `to_bytes`."""
         return self._core.save()
 
     def restore(self, state: State | bytes) -> None:
-        """Go back to a state of this scene, from `save` or `to_bytes`; the same bits follow.
+        """Go back to a state of this scene, from `save` or `to_bytes`, parameters included; the same bits follow.
 
         Raises:
-            StateError: damaged bytes, or a state of another scene or version. The simulation is then as before.
+            StateError: no state, damaged bytes, or one of another scene or version. The simulation is then as before.
 
         """
         if isinstance(state, State):
             self._core.restore(state)
-        else:
+        elif isinstance(state, bytes | bytearray | memoryview):
             self._core.restore_bytes(bytes(state))
+        else:
+            remedy = "Take what `save` or `to_bytes` of a simulation gave."
+            raise StateError(f"state refused: {arguments.shown(state)} is no state. {remedy}", remedy)
         self._refresh()
 
     def to_bytes(self) -> bytes:
@@ -260,7 +300,7 @@ class Simulation:
 
     def limit_work(self, most: int) -> None:
         """Refuse a step of more events (or time steps of ten soft disks) than this."""
-        self._core.limit_work(most)
+        self._core.limit_work(arguments.whole("most", most, 1, 2**63, "Give a number of events such as 1000000."))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle, with the state: processes and files take simulations as they are."""
@@ -276,29 +316,28 @@ class Simulation:
         return f"<jostle.Simulation: {self.scene}, {self.engine}, drive {self.drive}{size}, t = {self.time:g} s>"
 
     def _refresh(self) -> None:
-        for name, array in self._views.items():
-            self.read(name, array)
+        for name, (filled, _) in self._views.items():
+            filled.flags.writeable = True
+            self.read(name, filled)
+            filled.flags.writeable = False
 
     def _set(self, values: dict[str, Any]) -> None:
         given = []
         for name, value in values.items():
             variable, element = find(self._variables, name, self.scene)
-            if variable.is_array and element is None:
+            if variable.is_array and element is None and variable.causality in ("parameter", "input"):
                 raise ParameterError.of(name, value, "one element", f"Set {variable.elements[0]} and so on.")
             given.append((variable.positions[element or 0], value))
         self._core.set(given)
 
     def _times(self, seconds: float, every: float, width: int) -> NDArray[np.float64]:
-        for name, value in (("seconds", seconds), ("every", every)):
-            if not (math.isfinite(value) and value > 0.0):
-                raise ParameterError.of(name, value, "a time in seconds above 0", "Give a time such as 10 or 1e-3.")
         # A remainder below a billionth of a sample is rounding, not a sample: as the command line does it.
-        last = max(math.ceil(seconds / every - 1e-9), 1)
+        ratio = seconds / every - 1e-9
+        last = max(math.ceil(ratio), 1) if ratio < MOST_VALUES else MOST_VALUES
         if last * (width + 1) > MOST_VALUES:
-            allowed = f"at most {MOST_VALUES:.2g} values of one run, here {last * (width + 1):.2g}"
-            raise ParameterError.of(
-                "every", f"{every} s", allowed, "Sample less often, fewer outputs, or run in parts."
-            )
+            allowed = f"at most {MOST_VALUES:.2g} values of one run, here {ratio * (width + 1):.2g}"
+            remedy = "Sample less often, fewer outputs, or run in parts."
+            raise ParameterError.of("every", f"{every} s", allowed, remedy)
         after: NDArray[np.float64] = self.time + np.minimum(np.arange(last + 1) * every, seconds)
         return after
 
@@ -307,40 +346,45 @@ class Simulation:
             return [v for v in self._variables.values() if v.causality == "output"]
         if isinstance(names, str):
             names = (names,)
+        if not isinstance(names, Iterable):
+            raise ParameterError.of("outputs", arguments.shown(names), "names", "Give a list such as ['disk.angle'].")
         found = []
         for name in dict.fromkeys(names):
             variable, element = find(self._variables, name, self.scene)
             if element is not None:
                 raise ParameterError.of("outputs", name, "whole arrays", f"Take {variable.name}, then [:, {element}].")
-            found.append(variable)
+            if not (variable.is_array and variable.causality == "calculated"):  # a coordinate of every run
+                found.append(variable)
         return found
 
     def _fixed(self) -> dict[str, tuple[Variable, Any]]:
         arrays = [v for v in self._variables.values() if v.causality == "calculated" and v.is_array]
         return {v.name: (v, self.read(v.name)) for v in arrays}
 
+    def _dataset(self, times: NDArray[np.float64], columns: NDArray[np.float64], sampled: list[Variable]) -> xr.Dataset:
+        return dataset(times, columns, sampled, self._fixed(), self._attributes())
+
     def _attributes(self) -> dict[str, Any]:
         names = {"scene": self.scene, "engine": self.engine, "drive": self.drive, "disks": self.disks}
         parameters = [v for v in self._variables.values() if v.causality == "parameter" and not v.is_array]
-        return names | {"jostle_version": VERSION} | {v.name: self._core.get(v.positions[0]) for v in parameters}
+        return names | {"jostle_version": VERSION} | {v.name: self._shown(v) for v in parameters}
+
+    def _shown(self, variable: Variable) -> float | int | str:
+        value = self._core.get(variable.positions[0])
+        return variable.options[int(value) - 1] if variable.options else value
 
 
-def _whole(name: str, value: Any) -> int | None:
-    """Return a number of disks that Rust takes, or say why not."""
-    if value is None:
-        return None
+def _table(rows: int, columns: int) -> NDArray[np.float64]:
     try:
-        number = value.__index__()
-    except AttributeError:
-        number = -1
-    if not 0 <= number < 2**32:
-        raise ParameterError.of(name, value, "a whole number, 0 or more", "jostle.scenes() says how many.")
-    return int(number)
+        return np.empty((rows, columns))
+    except MemoryError:
+        size = f"{rows * columns * 8 / 2**30:.1f} GiB"
+        remedy = "Sample less often, fewer outputs, or run in parts."
+        raise ParameterError.of("every", size, "what fits into memory", remedy) from None
 
 
 def _restored(scene: str, engine: str, drive: str, disks: int, state: bytes) -> Simulation:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", JostleWarning)  # told when it was made
-        simulation = Simulation(scene, engine=engine, drive=drive, disks=disks)
+    simulation = Simulation.__new__(Simulation)
+    simulation._prepare(scene, engine, drive, disks)  # not started: the state has all that a start would compute
     simulation.restore(state)
     return simulation

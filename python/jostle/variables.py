@@ -6,10 +6,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from jostle.arguments import LONGEST, shown
 from jostle.errors import NoVariableError
 
 if TYPE_CHECKING:
     from jostle._core import Row
+
+INPUTS = ("base.displacement", "base.velocity", "base.acceleration_input", "torque", "torque.rate")
+"""Of the drive `input`, in any scene."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,8 +57,9 @@ class Variable:
 def grouped(rows: "Iterable[Row]") -> dict[str, Variable]:
     """Variables by name; those that differ only in a number in brackets as one."""
     found: dict[str, Variable] = {}
-    for position, (name, causality, kind, unit, low, high, start, options, text) in enumerate(rows):
+    for position, (name, causality, kind, unit, low, high, start, options, told) in enumerate(rows):
         base = re.sub(r"\[\d+\]", "", name)
+        text = re.sub(r"\bof disk 1\b", "of each disk", told)
         if base != name and base in found:
             first = found[base]
             found[base] = replace(first, positions=(*first.positions, position), elements=(*first.elements, name))
@@ -73,14 +78,22 @@ def find(variables: dict[str, Variable], name: str, scene: str) -> tuple[Variabl
         NoVariableError: there is none; says which are alike.
 
     """
+    if not isinstance(name, str):
+        remedy = "Names are texts, such as 'disk.angle'."
+        raise NoVariableError(f"{scene} has no variable {shown(name)}. {remedy}", remedy)
     if name in variables:
         return variables[name], None
     variable = variables.get(re.sub(r"\[[^]]*\]", "", name))
-    if variable is not None and variable.is_array:
-        if name in variable.elements:
-            return variable, variable.elements.index(name)
+    if variable is not None and variable.is_array and name in variable.elements:
+        return variable, variable.elements.index(name)
+    if name in INPUTS:
+        remedy = "It is an input: make the simulation with drive='input', where the engine has it."
+    elif name == "time":
+        remedy = "The time is the attribute `time` of the simulation, and the coordinate `time` of a run."
+    elif variable is not None and variable.is_array:
         remedy = f"They go from {variable.elements[0]} to {variable.elements[-1]}."
-        raise NoVariableError(f"{scene} has no variable {name}. {remedy}", remedy)
-    alike = difflib.get_close_matches(name, variables, n=3, cutoff=0.5)
-    hint = f"Did you mean {' or '.join(alike)}?" if alike else "The table `variables` of the simulation has all names."
-    raise NoVariableError(f"{scene} has no variable {name}. {hint}", hint)
+    else:
+        alike = difflib.get_close_matches(name[:LONGEST], variables, n=3, cutoff=0.5)
+        table = "The table `variables` of the simulation has all names."
+        remedy = f"Did you mean {' or '.join(alike)}?" if alike else table
+    raise NoVariableError(f"{scene} has no variable {shown(name)}. {remedy}", remedy)

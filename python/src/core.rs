@@ -1,5 +1,6 @@
 //! The class `Core`: any scene by name, its variables by position.
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use jostle::scene::catalogue::{self, Names};
@@ -22,6 +23,24 @@ pub struct Core {
     names: Names,
     disks: u32,
     held: Mutex<Held>,
+    /// Bits of the time reached \[s\], which other threads may read while a step is done.
+    time: AtomicU64,
+}
+
+impl Core {
+    /// [`enter`], and what time it is then.
+    fn move_on<T: Send>(
+        &self,
+        py: Python<'_>,
+        access: Access,
+        work: impl FnOnce(&mut dyn DynSimulation) -> Result<T> + Send,
+    ) -> PyResult<T> {
+        enter(py, &self.held, access, |simulation| {
+            let value = work(simulation)?;
+            self.time.store(simulation.time().to_bits(), Ordering::Relaxed);
+            Ok(value)
+        })
+    }
 }
 
 #[pymethods]
@@ -49,6 +68,7 @@ impl Core {
             names,
             disks,
             held: Held::new(simulation),
+            time: AtomicU64::new(0),
         })
     }
 
@@ -65,8 +85,8 @@ impl Core {
 
     /// Time reached [s].
     #[getter]
-    fn time(&self, py: Python<'_>) -> PyResult<f64> {
-        enter(py, &self.held, Access::Read, |simulation| Ok(simulation.time()))
+    fn time(&self) -> f64 {
+        f64::from_bits(self.time.load(Ordering::Relaxed))
     }
 
     /// Builds the model at time 0 from what was set.
@@ -129,9 +149,7 @@ impl Core {
 
     /// Advances to `end_time` [s] as one communication step.
     fn advance_to(&self, py: Python<'_>, end_time: f64) -> PyResult<()> {
-        enter(py, &self.held, Access::Change, |simulation| {
-            simulation.advance_to(end_time)
-        })
+        self.move_on(py, Access::Change, |simulation| simulation.advance_to(end_time))
     }
 
     /// Advances to each of `times` [s] (one that is reached already is only read) and writes the variables at `positions` into
@@ -156,7 +174,7 @@ impl Core {
         let mut done = 0;
         let mut stopped = None;
         while stopped.is_none() && done < times.len() {
-            let row = enter(py, &self.held, Access::Change, |simulation| {
+            let row = self.move_on(py, Access::Change, |simulation| {
                 if times[done] != simulation.time() {
                     simulation.advance_to(times[done])?;
                 }
@@ -191,7 +209,7 @@ impl Core {
     }
 
     fn restore(&self, py: Python<'_>, state: &State) -> PyResult<()> {
-        enter(py, &self.held, Access::Restore, |simulation| {
+        self.move_on(py, Access::Restore, |simulation| {
             simulation.restore_anew(&state.0.lock().unwrap_or_else(PoisonError::into_inner))
         })
     }
@@ -202,9 +220,7 @@ impl Core {
     }
 
     fn restore_bytes(&self, py: Python<'_>, state: &[u8]) -> PyResult<()> {
-        enter(py, &self.held, Access::Restore, |simulation| {
-            simulation.restore_bytes_anew(state)
-        })
+        self.move_on(py, Access::Restore, |simulation| simulation.restore_bytes_anew(state))
     }
 }
 

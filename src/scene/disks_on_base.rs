@@ -228,20 +228,13 @@ impl BaseRows<'_> {
     }
 }
 
-/// Rows `disk.angle[1]` and on. Their derivatives are the rows `disk.angular_velocity`, where the scene has them.
-pub fn angles<M: DisksOnBase>(disks: u32, what: &str) -> impl Iterator<Item = Row<M>> {
-    Row::outputs("disk.angle", disks, Unit::RADIAN, 1.0, what, |scene: &M, disk| {
-        scene.disk(disk).angle
-    })
-}
-
-/// Rows `disk.angle[1]` and on, then their derivatives `disk.angular_velocity[1]` and on.
+/// Rows `disk.angle[1]` and on, then their derivatives `disk.angular_velocity[1]` and on, with the typical rate \[rad/s\].
 pub fn rotations<M: DisksOnBase>(disks: u32, angle: &str, nominal: f64, rate: &str) -> impl Iterator<Item = Row<M>> {
-    let angles = angles(disks, angle)
-        .zip(1..)
-        .map(|(row, disk): (_, u32)| row.with_derivative(format!("disk.angular_velocity[{disk}]")));
+    let angles = Row::outputs("disk.angle", disks, Unit::RADIAN, 1.0, angle, |scene: &M, disk| {
+        scene.disk(disk).angle
+    });
     let unit = Unit::RADIAN_PER_SECOND;
-    angles.chain(Row::outputs(
+    with_derivatives(angles, "disk.angular_velocity").chain(Row::outputs(
         "disk.angular_velocity",
         disks,
         unit,
@@ -251,18 +244,47 @@ pub fn rotations<M: DisksOnBase>(disks: u32, angle: &str, nominal: f64, rate: &s
     ))
 }
 
-/// Rows `disk.x[1]` and on.
+/// Rows `disk.x[1]` and on. Their derivatives are among the rows of [`velocities`].
 pub fn horizontal_positions<M: DisksOnBase>(disks: u32, nominal: f64, what: &str) -> impl Iterator<Item = Row<M>> {
-    Row::outputs("disk.x", disks, Unit::METRE, nominal, what, |scene: &M, disk| {
+    let rows = Row::outputs("disk.x", disks, Unit::METRE, nominal, what, |scene: &M, disk| {
         scene.disk(disk).position.x
-    })
+    });
+    with_derivatives(rows, "disk.velocity_x")
 }
 
-/// Rows `disk.y[1]` and on.
+/// Rows `disk.y[1]` and on. Their derivatives are among the rows of [`velocities`].
 pub fn heights<M: DisksOnBase>(disks: u32, nominal: f64, what: &str) -> impl Iterator<Item = Row<M>> {
-    Row::outputs("disk.y", disks, Unit::METRE, nominal, what, |scene: &M, disk| {
+    let rows = Row::outputs("disk.y", disks, Unit::METRE, nominal, what, |scene: &M, disk| {
         scene.disk(disk).position.y
-    })
+    });
+    with_derivatives(rows, "disk.velocity_y")
+}
+
+/// Rows `disk.velocity_x[1]` and on, then `disk.velocity_y[1]` and on, with the typical speed \[m/s\] and what they depend on.
+pub fn velocities<M: DisksOnBase>(
+    disks: u32,
+    nominal: f64,
+    x_at_start: &[&'static str],
+    y_at_start: &[&'static str],
+) -> impl Iterator<Item = Row<M>> {
+    let unit = Unit::METRE_PER_SECOND;
+    let (x_at_start, y_at_start): (Arc<[_]>, Arc<[_]>) = (x_at_start.into(), y_at_start.into());
+    let across = "Horizontal velocity of the centre, to the right, of disk {}";
+    let up = "Vertical velocity of the centre, up, of disk {}";
+    let x = Row::outputs("disk.velocity_x", disks, unit, nominal, across, |scene: &M, disk| {
+        scene.disk(disk).velocity.x
+    });
+    let y = Row::outputs("disk.velocity_y", disks, unit, nominal, up, |scene: &M, disk| {
+        scene.disk(disk).velocity.y
+    });
+    x.map(move |row| row.depending_on(&x_at_start))
+        .chain(y.map(move |row| row.depending_on(&y_at_start)))
+}
+
+fn with_derivatives<M>(rows: impl Iterator<Item = Row<M>>, rate: &str) -> impl Iterator<Item = Row<M>> {
+    let rate = rate.to_owned();
+    rows.zip(1_u32..)
+        .map(move |(row, disk)| row.with_derivative(format!("{rate}[{disk}]")))
 }
 
 /// Rows `disk.radius[1]` and on, which stay; with the typical radius \[m\] and what the radii depend on.

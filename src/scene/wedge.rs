@@ -18,7 +18,7 @@ use crate::measure::BatchMeans;
 
 use super::disks_on_base::{
     BaseRows, DisksOnBase, StepReport, Stretch, complete, heights, horizontal_positions, mean_angular_velocity,
-    mean_velocity, names, rotations,
+    mean_velocity, names, rotations, velocities,
 };
 use super::work_limit::WorkLimit;
 use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning};
@@ -237,6 +237,7 @@ impl<E: WedgeEngine> Wedge<E> {
         rotations(1, angle, 1.0, "Angular velocity, counter-clockwise")
             .chain(horizontal_positions(1, 0.01, across).map(move |row| row.depending_on(&names(&[PLACE, place]))))
             .chain(heights(1, 0.01, up).map(move |row| row.depending_on(&names(&[PLACE, place, displacement]))))
+            .chain(velocities(1, 0.1, VELOCITY, VELOCITY))
     }
 }
 

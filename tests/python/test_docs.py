@@ -202,6 +202,7 @@ def test_peers_are_built_and_run():
     "program",
     [
         (PYTHON, "python", "dataset"),
+        (PYTHON, "python", "rotation"),
         (PYTHON, "python", "pandas"),
         (PYTHON, "python", "error bars"),
         (PYTHON, "python", "loop"),

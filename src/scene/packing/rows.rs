@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::{
     BaseRows, DisksOnBase, heights, horizontal_positions, mean_angular_velocity, mean_velocity, names, rotations,
+    velocities,
 };
 use crate::scene::info::GRAVITY;
 use crate::scene::{Row, Unit, work_limit};
@@ -51,7 +52,9 @@ pub struct AtStart {
     pub heights: Arc<[&'static str]>,
     /// Which contacts are closed.
     pub touching: Arc<[&'static str]>,
-    /// Energy of the motion: a settled packing moves with the base.
+    /// Vertical velocities of the disks: a settled packing moves with the base.
+    pub vertical_velocities: Arc<[&'static str]>,
+    /// Energy of the motion.
     pub kinetic_energy: Arc<[&'static str]>,
     /// Energy in gravity.
     pub potential_energy: Arc<[&'static str]>,
@@ -76,6 +79,15 @@ impl AtStart {
         Self {
             radii: names(&[&RADII, &["seed"]]),
             touching: Arc::clone(&heights),
+            vertical_velocities: match D::VELOCITY_AT_START {
+                [] => names(&[]),
+                of_base => names(&[
+                    &[SETTLED],
+                    of_base,
+                    base_model,
+                    if D::MOVES_DISKS { PLACES } else { &[] },
+                ]),
+            },
             kinetic_energy: names(&[mass_and_motion, D::VELOCITY_AT_START, base_model, free]),
             potential_energy: names(&[&heights, &["gravity", "disk.surface_density"]]),
             heights,
@@ -115,6 +127,7 @@ pub fn each_disk<M: DisksOnBase + MeasuresRotation + 'static>(disks: u32, at_sta
     rotations(disks, angle, 1.0, rate)
         .chain(horizontal_positions(disks, 0.1, across).map(|row| row.depending_on(&at_start.places)))
         .chain(heights(disks, 0.1, up).map(|row| row.depending_on(&at_start.heights)))
+        .chain(velocities(disks, 0.1, &[], &at_start.vertical_velocities))
         .chain(rotation::of_each(disks))
         .collect()
 }

@@ -6,7 +6,8 @@ use crate::engine::event_driven::{Moving, ToothImpacts};
 use crate::geometry::ToothPart;
 use crate::scene::base_drive::{BaseDrive, TERMINAL};
 use crate::scene::disks_on_base::{
-    BaseRows, DisksOnBase, angles, heights, horizontal_positions, mean_angular_velocity, mean_velocity, names, radii,
+    BaseRows, DisksOnBase, heights, horizontal_positions, mean_angular_velocity, mean_velocity, names, radii,
+    rotations, velocities,
 };
 use crate::scene::hard_disks::{EnergyRows, HardBase, HardDisksOnBase};
 use crate::scene::{Row, Unit};
@@ -201,9 +202,11 @@ where
             0.01,
             "Height of the centre above the valleys of the base at rest of disk {}",
         );
-        angles(disks, "Angle turned, counter-clockwise and unwrapped, of disk {}")
+        let angle = "Angle turned, counter-clockwise and unwrapped, of disk {}";
+        rotations(disks, angle, 10.0, "Angular velocity, counter-clockwise, of disk {}")
             .chain(x.map(move |row| row.depending_on(&across)))
             .chain(y.map(move |row| row.depending_on(&up)))
+            .chain(velocities(disks, 0.1, &[], &[]))
     }
 
     /// Time \[s\] reached, and the horizontal positions \[m\] of all disks then, periods undone.

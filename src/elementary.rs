@@ -4,7 +4,7 @@
 //! versions of glibc, Windows, macOS and WebAssembly; vibrated disks make another run of another last bit. These are those
 //! of the crate `libm`: Rust alone, never contracted to fused operations. Largest errors found, in units in the last place:
 //! 0.73 in sine and cosine, 0.76 in the exponential and powers, 0.83 in inverse sine and cosine, 1.3 in `atan2`, 0.9 in
-//! `hypot` (`docs/portability.md`). Square roots, sums, products, remainders and roundings are exact by IEEE 754 and
+//! `hypot` (`docs/decisions.md`). Square roots, sums, products, remainders and roundings are exact by IEEE 754 and
 //! need no other. `clippy.toml` keeps the standard library's functions out.
 
 pub use libm::{

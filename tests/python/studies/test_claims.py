@@ -34,7 +34,7 @@ def test_the_page_is_what_its_records_say() -> None:
     assert (GENERATED / PAGE).read_text() == page(*on_the_page())
 
 
-def test_the_figures_without_a_whole_record_are_those_known_to_be() -> None:
+def test_every_figure_has_a_whole_record() -> None:
     assert on_the_page()[1] == []
 
 

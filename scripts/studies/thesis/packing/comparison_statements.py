@@ -161,7 +161,10 @@ CAUSES = {
         "the distances are as small as their errors at every stiffness; four times the packings, two hours of one"
         " processor, would tell"
     ),
-    "maximum": "TODO",
+    "maximum": (
+        "records of 60 s; at P's length, 1000 s, the event-driven packings (next rows) lose the rotation of high "
+        "Gamma, and their largest value moves to about 10"
+    ),
     "end": (
         "records of 12 s (1e5) and 6 s (1e6) hold much of the random walk of the angles at Gamma = 20, and 29 is "
         "missing: 25 packings there for 60 s take 12 and 40 minutes of one processor"

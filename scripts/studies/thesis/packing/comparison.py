@@ -12,7 +12,7 @@ from jostle_lab.runs.laboratory import Laboratory
 from jostle_lab.statements import Product
 from studies.thesis.packing.compared import Comparison, Key, compare
 from studies.thesis.packing.comparison_statements import statements
-from studies.thesis.packing.ensemble import EVENT_PACKINGS, STIFFNESSES, effort
+from studies.thesis.packing.ensemble import EVENT_LENGTH, EVENT_PACKINGS, STIFFNESSES, effort
 from studies.thesis.packing.runs import MOLECULAR, MOVING, RANDOM_PHASE, Method
 
 SYMBOLS = {1e4: ("o", "#1f5fa8"), 1e5: ("s", "#d07a1f"), 1e6: ("^", "#2e7d4f")}
@@ -77,7 +77,7 @@ def draw(compared: Comparison) -> Figure:
             _draw_curves(mosaic, compared, method, stiffness)
     if compared.long:
         points = [e.estimate("mean_square") for e in compared.long.values()]
-        label = rf"ED, {EVENT_PACKINGS} packings, $k_n = 10^4$ N/m"
+        label = rf"ED, {EVENT_PACKINGS} packings, up to {EVENT_LENGTH} s, $k_n = 10^4$ N/m"
         for name in ("linear", "log"):
             draw_curve(mosaic[name], list(compared.long), points, label, fmt="x-.", color="black")
     for name in ("log", "ratio"):

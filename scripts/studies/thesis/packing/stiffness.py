@@ -108,7 +108,8 @@ def draw(found: Found) -> Figure:
             at = gammas(found, k)
             points = [found[k, g].estimate("mean_square") for g in at]
             style = {"marker": marker, "ls": line, "color": colour, "ms": 3.5, "mfc": "white"}
-            draw_curve(panel, at, points, rf"$k_n = 10^{{{round(np.log10(k))}}}$ N/m", **style)
+            length = max(found[k, g].point.observed for g in at)
+            draw_curve(panel, at, points, rf"$k_n = 10^{{{round(np.log10(k))}}}$ N/m, up to {length} s", **style)
         panel.set(xscale=scale, yscale=scale, xlabel=r"$\Gamma$")
         panel.axvline(1.0, color="0.7", lw=0.7, ls=":")
     figure.axes[0].set_ylabel(r"$\langle\bar\omega^2\rangle$ [RPM$^2$]")

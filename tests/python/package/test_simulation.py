@@ -18,6 +18,8 @@ import xarray as xr
 
 import jostle
 
+LONG = 40.0
+"""A step of half a second of processor time, so that other threads come to their turn meanwhile [s]."""
 SHAKEN = {"drive.amplitude": 1e-4, "drive.frequency": 60.0}
 
 
@@ -165,17 +167,17 @@ def test_other_threads_run_while_a_step_is_done() -> None:
     assert (both[0] == both[1]).all()
     counted = 0
     worker_sim = packing()
-    worker = threading.Thread(target=worker_sim.run, args=(3.0,), kwargs={"every": 3.0})
+    worker = threading.Thread(target=worker_sim.run, args=(LONG,), kwargs={"every": LONG})
     worker.start()
     while worker.is_alive():
-        counted += worker_sim.time < 3.0
+        counted += worker_sim.time < LONG
         time.sleep(0.0)
     assert counted > 10
 
 
 def test_two_threads_in_one_simulation_are_refused() -> None:
     sim = packing()
-    worker = threading.Thread(target=sim.run, args=(3.0,), kwargs={"every": 3.0})
+    worker = threading.Thread(target=sim.run, args=(LONG,), kwargs={"every": LONG})
     worker.start()
     refused = 0
     while worker.is_alive():
@@ -184,7 +186,7 @@ def test_two_threads_in_one_simulation_are_refused() -> None:
         except jostle.CallError as error:
             assert "another thread" in str(error)
             refused += 1
-    assert refused > 0 and sim.time == 3.0
+    assert refused > 0 and sim.time == LONG
 
 
 def test_processes_take_simulations() -> None:

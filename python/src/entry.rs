@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, TryLockError};
 
+use fmi_component::handle::describe;
 use jostle::scene::DynSimulation;
 use jostle::{Error, Result};
 use pyo3::prelude::*;
@@ -46,10 +47,7 @@ impl Held {
             Ok(Err(error)) => Outcome::Refused(error),
             Err(panic) => {
                 self.failed = true;
-                Outcome::Panicked(format!(
-                    "a defect of jostle: {}. This simulation has failed",
-                    text_of(&*panic)
-                ))
+                Outcome::Panicked(format!("{}. This simulation has failed", describe(&*panic)))
             }
         }
     }
@@ -82,11 +80,4 @@ pub fn enter<T: Send>(
         Some(Outcome::Panicked(message)) => Err(refusal::defect(py, &message)),
         None => Err(refusal::busy(py)),
     }
-}
-
-fn text_of(panic: &(dyn std::any::Any + Send)) -> &str {
-    let literal = panic.downcast_ref::<&str>().copied();
-    literal
-        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
-        .unwrap_or("no message")
 }

@@ -1,7 +1,7 @@
 //! What there is, as plain tuples: scenes, and the variables of a scene.
 
 use jostle::scene::catalogue::{MODELS, Names};
-use jostle::scene::{Causality, Kind, Value, Variable};
+use jostle::scene::{Kind, Value, Variable};
 use pyo3::prelude::*;
 
 /// Scene, engine, drive, description and allowed numbers of disks of everything that can be simulated.
@@ -46,12 +46,6 @@ pub fn row(variable: &Variable) -> Row {
             ("option", "1", 1.0, names.len() as f64, names)
         }
     };
-    let causality = match variable.causality {
-        Causality::Parameter => "parameter",
-        Causality::CalculatedParameter => "calculated",
-        Causality::Input => "input",
-        Causality::Output => "output",
-    };
     let start = if variable.causality.is_settable() {
         variable.start().to_f64()
     } else {
@@ -59,7 +53,7 @@ pub fn row(variable: &Variable) -> Row {
     };
     (
         variable.name.clone(),
-        causality,
+        variable.causality.word(),
         kind,
         unit,
         min,

@@ -28,6 +28,16 @@ impl Causality {
     pub const fn is_settable(self) -> bool {
         matches!(self, Self::Parameter | Self::Input)
     }
+
+    /// One word for tables.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Parameter => "parameter",
+            Self::CalculatedParameter => "calculated",
+            Self::Input => "input",
+            Self::Output => "output",
+        }
+    }
 }
 
 /// What a variable holds.

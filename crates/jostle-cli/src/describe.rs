@@ -1,7 +1,7 @@
 //! `jostle describe`: the variables of a scene as a table.
 
 use clap::Args;
-use jostle::scene::{Causality, Kind, Variable};
+use jostle::scene::{Kind, Variable};
 
 use crate::failure::Failure;
 use crate::selection::{self, Selected, Selection};
@@ -73,12 +73,6 @@ fn line(row: &Variable, run: usize) -> Vec<String> {
             description = format!("{stem}each disk");
         }
     }
-    let causality = match row.causality {
-        Causality::Parameter => "parameter",
-        Causality::CalculatedParameter => "calculated",
-        Causality::Input => "input",
-        Causality::Output => "output",
-    };
     let start = if row.causality.is_settable() {
         row.start().to_string()
     } else {
@@ -94,7 +88,14 @@ fn line(row: &Variable, run: usize) -> Vec<String> {
         }
         Kind::Long { range, .. } => ("64-bit integer", format!("{} to {}", range.start(), range.end())),
     };
-    vec![name, causality.into(), unit.into(), range, start, description]
+    vec![
+        name,
+        row.causality.word().into(),
+        unit.into(),
+        range,
+        start,
+        description,
+    ]
 }
 
 fn real_range(min: f64, max: f64) -> String {

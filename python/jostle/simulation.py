@@ -14,13 +14,11 @@ from numpy.typing import NDArray
 from jostle import arguments
 from jostle._core import VERSION, Core, State
 from jostle.dataset import dataset
-from jostle.errors import JostleError, JostleWarning, NoVariableError, ParameterError, StateError, StepError
+from jostle.errors import JostleError, JostleWarning, NoVariableError, ParameterError, StateError
 from jostle.variables import Variable, find, grouped
 
 MOST_VALUES = 2**31
 """Of one run: 16 GiB. More is a slip of the keyboard."""
-
-
 ROWS_AT_ONCE = 256
 """Of a run that the engine does in one call: what it holds twice."""
 
@@ -247,19 +245,19 @@ class Simulation:
 
         Raises:
             StepError: a step cannot be done. The samples before it are in the attribute `partial` of the exception, and
-                of a `KeyboardInterrupt` too; the simulation stands at the last of them. Ctrl-C is noticed after each
-                sample.
+                of whatever else stops the sampling, `KeyboardInterrupt` too; the simulation stands at the last of them.
+                Ctrl-C is noticed after each sample.
             ParameterError, NoVariableError: an argument that is not allowed.
 
         """
         sampled = self._outputs(outputs)
         positions = [p for v in sampled for p in v.positions]
-        rows, times, columns = 0, np.empty(0), np.empty((0, len(positions)))
+        span, interval = arguments.seconds("seconds", seconds), arguments.seconds("every", every)
+        times = self._times(span, interval, len(positions))
+        columns = _table(len(times), len(positions))
+        constant = self._fixed(), self._attributes()
+        rows = 0
         try:
-            times = self._times(
-                arguments.seconds("seconds", seconds), arguments.seconds("every", every), len(positions)
-            )
-            columns = _table(len(times), len(positions))
             while rows < len(times):
                 part = slice(rows, rows + ROWS_AT_ONCE)
                 done, stopped = self._core.sample(times[part].tolist(), positions, columns[part])
@@ -267,11 +265,11 @@ class Simulation:
                 if stopped is not None:
                     raise stopped
             self._refresh()
-            return self._dataset(times, columns, sampled)
-        except (StepError, KeyboardInterrupt) as error:
-            self._refresh()
-            error.partial = self._dataset(times[:rows], columns[:rows], sampled)  # type: ignore[union-attr]
+            return dataset(times, columns, sampled, *constant)
+        except (JostleError, KeyboardInterrupt) as error:
+            error.partial = dataset(times[:rows], columns[:rows], sampled, *constant)  # type: ignore[union-attr]
             error.add_note(f"{rows} whole samples are in the attribute `partial` of this exception.")
+            self._refresh()
             raise
 
     def save(self) -> State:
@@ -360,9 +358,6 @@ class Simulation:
     def _fixed(self) -> dict[str, tuple[Variable, Any]]:
         arrays = [v for v in self._variables.values() if v.causality == "calculated" and v.is_array]
         return {v.name: (v, self.read(v.name)) for v in arrays}
-
-    def _dataset(self, times: NDArray[np.float64], columns: NDArray[np.float64], sampled: list[Variable]) -> xr.Dataset:
-        return dataset(times, columns, sampled, self._fixed(), self._attributes())
 
     def _attributes(self) -> dict[str, Any]:
         names = {"scene": self.scene, "engine": self.engine, "drive": self.drive, "disks": self.disks}

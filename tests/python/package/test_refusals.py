@@ -1,5 +1,6 @@
 """Whatever is wrong is an exception that names the thing, its value, the allowed range and the remedy."""
 
+import contextlib
 import math
 import pickle
 import signal
@@ -126,6 +127,26 @@ def test_a_refused_step_keeps_what_was_sampled() -> None:
     with pytest.raises(jostle.StepError) as refusal:
         sim.run(100.0, every=50.0)
     assert refusal.value.partial.sizes["time"] == 1 and sim.time == 0.0 and "partial" in refusal.value.__notes__[0]
+
+
+def test_a_run_that_another_thread_disturbs_keeps_what_was_sampled() -> None:
+    sim = shaken()
+    stopped: list[jostle.JostleError] = []
+
+    def disturbed() -> None:
+        try:
+            sim.run(1e3, every=0.01, outputs=["disk.angle"])
+        except jostle.JostleError as error:
+            stopped.append(error)
+
+    worker = threading.Thread(target=disturbed)
+    worker.start()
+    while sim.time == 0.0:
+        pass
+    while worker.is_alive():
+        with contextlib.suppress(jostle.JostleError):
+            sim.advance_to(sim.time + 0.003)
+    assert stopped[0].partial["disk.angle"].sizes["time"] > 0
 
 
 def test_an_interrupted_run_keeps_what_was_sampled() -> None:

@@ -26,13 +26,15 @@ def test_libraries_need_no_function_of_the_c_library(library: str) -> None:
 @pytest.mark.parametrize(
     "scene",
     [
-        ("packing", "molecular-dynamics"),
-        ("packing", "event-driven"),
-        ("wedge", "event-driven"),
-        ("ratchet", "event-driven"),
+        ("packing", "molecular-dynamics", "1"),
+        ("packing", "event-driven", "1"),
+        ("wedge", "event-driven", "20"),
+        ("ratchet", "event-driven", "20"),
     ],
 )
-def test_other_functions_of_the_c_library_change_no_bit(jostle: Path, scene: tuple[str, str], tmp_path: Path) -> None:
+def test_other_functions_of_the_c_library_change_no_bit(
+    jostle: Path, scene: tuple[str, str, str], tmp_path: Path
+) -> None:
     files = []
     for tunables in ("", WITHOUT_FUSED):
         files.append(tmp_path / f"{len(files)}.csv")
@@ -43,7 +45,7 @@ def test_other_functions_of_the_c_library_change_no_bit(jostle: Path, scene: tup
             "--engine",
             scene[1],
             "--seconds",
-            "1",
+            scene[2],
             "--output",
             files[-1],
             "--no-progress",

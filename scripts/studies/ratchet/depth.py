@@ -193,7 +193,7 @@ def _elasticity(found: Mapping[Shape, Curve]) -> list[Statement]:
             f"{TALL}, by restitution of all impacts (the disks have one for balls and base): {text}",
             every([*map(_turns, found.values()), *map(fades, found.values())], rule),
             "restitution of the balls is changed along with that of the base, which is more than F did; more runs of "
-            "thick layers decide",
+            "thick layers, an hour of one processor, decide",
         )
     ]
 
@@ -209,7 +209,7 @@ def others(observed: Observed) -> list[Statement]:
             f"{VERTICAL}: standard deviation over the balls of their mean velocities in 30 s [cm/s], by n: "
             + listed(zip(shallow, spreads, strict=True)),
             falls(spreads),
-            "more runs decide",
+            "four times the runs, an hour of one processor, decide",
         )
     ]
     if all(s.case(DAMPED) in observed.seeds for s in ELASTICITIES):
@@ -228,7 +228,7 @@ def others(observed: Observed) -> list[Statement]:
 
 DAMPED = 6.0
 """Layers beyond the maximum."""
-DAMPING = "more runs decide"
+DAMPING = "four times the runs, an hour of one processor, decide"
 
 
 DEPTH = Study(

@@ -246,7 +246,7 @@ def statements(found: dict[Place, Measured], trial: Measured) -> list[Statement]
             "they differ for high intensity, where the disk feels the curvature: no scaling with v_b for three disks",
             "R omega / (A omega_b), disks less wedge: " + "; ".join(large),
             _differs(differ, rule),
-            "longer runs would tell",
+            "four times as long runs, half an hour of one processor, would tell",
         ),
         Statement.judged(
             "6.2",
@@ -262,7 +262,7 @@ def statements(found: dict[Place, Measured], trial: Measured) -> list[Statement]
             f"wedge at {WALLS_AT[0]:g} less {WALLS_AT[1]:g} Hz: "
             + "; ".join(f"{t:g} degrees: {e}" for t, e in zip(TILTS, rests, strict=True)),
             every([near(e, 0.0, SAME * scale) for e in rests], f"within {SAME:.0%} of the strongest, with two errors"),
-            "longer runs would tell",
+            "four times as long runs, half an hour of one processor, would tell",
         ),
     ]
 

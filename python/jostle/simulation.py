@@ -196,6 +196,27 @@ class Simulation:
             self._views[name] = filled, filled.view()
         return self._views[name][1]
 
+    def contacts(self) -> pd.DataFrame:
+        """Return the closed contacts of now, one a row, of engines whose contacts last.
+
+        Columns: `first` and `second`, numbers of the disks (`second` is 0 at a wall or support), `wall`, number of the
+        wall or support (0 between disks), `x`, `y` [m], middle of the overlap, `normal_x`, `normal_y`, unit normal
+        towards the first disk, `normal_force` [N], not negative, and `tangential_force` [N] on the first disk along the
+        normal turned clockwise. Units and descriptions are in `attrs`.
+
+        Raises:
+            CallError: the engine has impacts instead of contacts.
+
+        """
+        columns, numbers = self._core.list("contacts")
+        names = [name for name, _, _ in columns]
+        table = pd.DataFrame(np.frombuffer(numbers).reshape(-1, len(names)), columns=names)
+        table.attrs = {
+            "units": {name: unit for name, unit, _ in columns},
+            "descriptions": {name: description for name, _, description in columns},
+        }
+        return table.astype(dict.fromkeys(("first", "second", "wall"), int))
+
     def step(self, step: float, **inputs: float) -> None:
         """Do one communication step.
 

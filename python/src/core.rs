@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use jostle::scene::catalogue::{self, Names};
-use jostle::scene::{DynSaved, DynSimulation, StructuralParameters, Value};
+use jostle::scene::{DynSaved, DynSimulation, Listed, StructuralParameters, Value};
 use jostle::{Error, Result};
 use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
@@ -136,6 +136,20 @@ impl Core {
     /// Value of a variable.
     fn get(&self, py: Python<'_>, position: usize) -> PyResult<Number> {
         enter(py, &self.held, Access::Read, |simulation| simulation.value(position)).map(Number::from)
+    }
+
+    /// Columns (name, unit, description) of a list and its rows as of now: the bytes of doubles, row after row.
+    #[expect(clippy::type_complexity, reason = "what Python gets, which has no names for types")]
+    fn list<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+    ) -> PyResult<(Vec<(&'static str, &'static str, &'static str)>, Bound<'py, PyBytes>)> {
+        let Listed { info, numbers } = enter(py, &self.held, Access::Read, |simulation| simulation.list(name))?;
+        let columns = info.columns.iter();
+        let columns = columns.map(|column| (column.name, column.unit.name, column.description));
+        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_ne_bytes()).collect();
+        Ok((columns.collect(), PyBytes::new(py, &bytes)))
     }
 
     /// Fills `out` with the variables at `positions`.

@@ -25,6 +25,14 @@ pub trait NormalForce: Debug + Clone + Copy + PartialEq + Send + 'static {
     /// Force \[N\] of the damping, which is subtracted; u_n \[m/s\] is negative on approach.
     fn viscous(constants: [f64x2; 2], overlap: f64x2, normal_velocity: f64x2) -> f64x2;
 
+    /// Normal force \[N\] of one contact that touches.
+    fn of_one(&self, overlap: f64, normal_velocity: f64) -> f64 {
+        let constants = self.constants().map(f64x2::splat);
+        let overlap = f64x2::splat(overlap);
+        let viscous = Self::viscous(constants, overlap, f64x2::splat(normal_velocity));
+        (Self::elastic(constants, overlap) - viscous).to_array()[0].max(0.0)
+    }
+
     /// Energy \[J\] stored in the spring at an overlap \[m\].
     fn energy(&self, overlap: f64) -> f64;
 

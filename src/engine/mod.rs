@@ -1,5 +1,6 @@
 //! What advances time, and what a scene needs of it.
 
+mod contact_now;
 pub mod dem;
 mod disk_motion;
 pub mod disk_on_two_supports;
@@ -10,6 +11,7 @@ pub mod work_budget;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+pub use contact_now::{ContactNow, Touched};
 pub use disk_motion::DiskMotion;
 pub use work_budget::{MOST_WORK_IN_A_CALL, WorkBudget};
 

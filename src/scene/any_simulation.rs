@@ -6,7 +6,7 @@
 use std::fmt;
 
 use super::{
-    DynSimulation, Error, Model, Result, Simulation, StructuralParameters, Value, Variable, Warning, catalogue,
+    DynSimulation, Error, Listed, Model, Result, Simulation, StructuralParameters, Value, Variable, Warning, catalogue,
 };
 
 /// Which scene, by name. What is left out is the scene's first: `jostle describe` and the README list them.
@@ -167,6 +167,14 @@ impl AnySimulation {
     /// No variable there.
     pub fn value(&self, position: usize) -> Result<Value> {
         self.0.value(position)
+    }
+
+    /// The list called `name` as of now, such as `contacts`.
+    ///
+    /// # Errors
+    /// The scene's engine has no such list.
+    pub fn list(&self, name: &str) -> Result<Listed> {
+        self.0.list(name)
     }
 
     /// All values as of now, in the order of [`AnySimulation::variables`].

@@ -22,7 +22,10 @@ use crate::measure::BatchMeans;
 
 use super::disks_on_base::complete;
 use super::work_limit::{self, WorkLimit};
-use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning};
+use super::{
+    Error, Listing, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning,
+    contact_list,
+};
 pub use drives::DiskOnTwoSupportsDrive;
 
 /// [`DiskOnTwoSupportsScene`] under the torque of an input.
@@ -243,6 +246,11 @@ impl<E: DiskOnTwoSupportsDrive> Model for DiskOnTwoSupportsScene<E> {
         rows.extend(E::rows());
         rows.extend(Self::computed_rows());
         complete(rows)
+    }
+
+    fn listings() -> Vec<Listing<Self>> {
+        let contacts = |scene: &Self, numbers: &mut Vec<f64>| contact_list::append(scene.closed_contacts(), numbers);
+        vec![contact_list::listing(contacts)]
     }
 
     fn new(_structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {

@@ -7,6 +7,7 @@
 mod any_simulation;
 pub mod base_drive;
 pub mod catalogue;
+mod contact_list;
 pub mod disk_on_two_supports;
 pub mod disks_on_base;
 pub mod drives {
@@ -36,8 +37,9 @@ mod work_limit;
 
 pub use any_simulation::{AnySimulation, Selection};
 pub use fmi_component::{
-    Causality, DynSaved, DynSimulation, Error, Kind, Model, ModelInfo, ModelType, Quantity, Reached, Read, Result, Row,
-    Saved, Simulation, StructuralParameters, TIME, Table, Unit, Value, Values, Variable, Warning,
+    Causality, Column, DynSaved, DynSimulation, Error, Kind, ListInfo, Listed, Listing, Model, ModelInfo, ModelType,
+    Quantity, Reached, Read, Result, Row, Saved, Simulation, StructuralParameters, TIME, Table, Unit, Value, Values,
+    Variable, Warning,
 };
 pub use info::SceneInfo;
 #[cfg(feature = "toml")]

@@ -21,7 +21,9 @@ use super::disks_on_base::{
     mean_velocity, names, rotations, velocities,
 };
 use super::work_limit::WorkLimit;
-use super::{Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning};
+use super::{
+    Error, Listing, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning,
+};
 use engine::AtStart;
 pub use engine::{SpecificEnergies, WedgeEngine};
 pub use rigid::{EventDriven, Map};
@@ -274,6 +276,10 @@ impl<E: WedgeEngine> Model for Wedge<E> {
         rows.extend(E::own_outputs());
         rows.extend(Self::disk_rows());
         complete(rows)
+    }
+
+    fn listings() -> Vec<Listing<Self>> {
+        E::listings()
     }
 
     fn new(_structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {

@@ -206,6 +206,7 @@ def test_peers_are_built_and_run():
         (PYTHON, "python", "pandas"),
         (PYTHON, "python", "error bars"),
         (PYTHON, "python", "loop"),
+        (PYTHON, "python", "contacts"),
         (PYTHON, "python", "states"),
         (PYTHON, "python", "refusal"),
         ("python/README.md", "python", "package"),

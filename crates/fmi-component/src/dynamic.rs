@@ -6,6 +6,7 @@ use std::any::Any;
 
 use crate::error::{Error, Result};
 use crate::info::ModelInfo;
+use crate::listing::Listed;
 use crate::model::{Model, Reached, Warning};
 use crate::saved_bytes;
 use crate::simulation::{Saved, Simulation};
@@ -85,6 +86,7 @@ pub trait DynSimulation: Send {
     fn set_at(&mut self, position: usize, value: Value) -> Result<()>;
     fn value(&self, position: usize) -> Result<Value>;
     fn read_reals(&self, first: usize, out: &mut [f64]) -> Result<()>;
+    fn list(&self, name: &str) -> Result<Listed>;
     fn set_start_time(&mut self, time: f64) -> Result<()>;
     fn start(&mut self, time: f64) -> Result<()>;
     fn reset(&mut self);
@@ -140,6 +142,10 @@ impl<M: Model> DynSimulation for Simulation<M> {
 
     fn read_reals(&self, first: usize, out: &mut [f64]) -> Result<()> {
         self.read_reals(first, out)
+    }
+
+    fn list(&self, name: &str) -> Result<Listed> {
+        self.list(name)
     }
 
     fn set_start_time(&mut self, time: f64) -> Result<()> {

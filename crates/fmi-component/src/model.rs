@@ -5,6 +5,7 @@ use serde::de::DeserializeOwned;
 
 use crate::error::Result;
 use crate::info::ModelInfo;
+use crate::listing::Listing;
 use crate::row::Row;
 use crate::structure::StructuralParameters;
 use crate::values::Values;
@@ -47,6 +48,11 @@ pub trait Model: Sized + Send + 'static {
 
     /// The variables for these structural parameters: parameters and inputs first, then what is computed.
     fn variables(structure: &StructuralParameters) -> Vec<Row<Self>>;
+
+    /// Lists whose length changes with time, which programs can ask for besides the variables.
+    fn listings() -> Vec<Listing<Self>> {
+        Vec::new()
+    }
 
     /// Builds the model at `start_time` \[s\] from the parameters among `values` and the inputs as they stand.
     ///

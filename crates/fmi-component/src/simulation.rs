@@ -4,6 +4,7 @@
 //! state brings back the same bits. Not here: models chosen at run time ([`DynSimulation`](crate::DynSimulation)), the life
 //! cycle of FMI.
 
+mod lists;
 mod refusal;
 mod saving;
 
@@ -19,7 +20,7 @@ use crate::unit::Unit;
 use crate::value::Value;
 use crate::values::Values;
 use crate::variable::{Causality, Variable};
-use refusal::name_what_was_set;
+use refusal::{name_what_was_set, named};
 pub use saving::Saved;
 
 /// One run of a model.
@@ -146,14 +147,8 @@ impl<M: Model> Simulation<M> {
     /// The model has no such variable.
     pub fn position(&self, name: &str) -> Result<usize> {
         self.table().position(name).ok_or_else(|| {
-            let info = M::info();
-            let variant: String = info
-                .variant
-                .iter()
-                .map(|(key, value)| format!(", {key} {value}"))
-                .collect();
             Error::call(
-                format!("the model {}{variant} has no variable {name}", info.name),
+                format!("the model {} has no variable {name}", named(&M::info())),
                 "Take the names from its table of variables.",
             )
         })

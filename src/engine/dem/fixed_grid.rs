@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::NormalForce;
 use crate::drive::{Drive, Motion};
-use crate::engine::{Engine, WorkBudget};
+use crate::engine::{ContactNow, Engine, WorkBudget};
 use crate::error::are_sane;
 use crate::geometry::Disk;
 
@@ -115,6 +115,9 @@ pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
 
     /// Energy \[J\] in the springs of closed contacts.
     fn elastic_energy(&self, disks: &Self::Disks, base: Motion) -> f64;
+
+    /// The closed contacts, disks with disks first.
+    fn contacts(&self, disks: &Self::Disks, base: Motion) -> Vec<ContactNow>;
 
     /// Whether all numbers of the motion are finite and far from overflow.
     fn is_sane(disks: &Self::Disks) -> bool;

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use crate::drive::Motion;
 use crate::elementary::powi;
-use crate::engine::DiskMotion;
+use crate::engine::{ContactNow, DiskMotion};
 
 use super::fixed_grid::{FixedGrid, Stepper};
 
@@ -105,6 +105,12 @@ impl<S: Stepper, D> FixedGrid<S, D> {
     pub fn elastic_energy(&self) -> f64 {
         let now = self.now();
         self.stepper.elastic_energy(&now.disks, now.base)
+    }
+
+    /// The closed contacts, disks with disks first.
+    pub fn contacts(&self) -> Vec<ContactNow> {
+        let now = self.now();
+        self.stepper.contacts(&now.disks, now.base)
     }
 
     /// Energies of the disks.

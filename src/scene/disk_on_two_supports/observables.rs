@@ -1,7 +1,10 @@
 //! What the rows read from the engine: the disk, contacts, supports and energies at the time reached.
 
 use crate::drive::excitation::SupportMotion;
+use crate::engine::disk_on_two_supports::dynamics::{place, rates};
+use crate::engine::disk_on_two_supports::support::kinematics;
 use crate::engine::disk_on_two_supports::{Node, Record};
+use crate::engine::{ContactNow, Touched};
 
 use super::{DiskOnTwoSupportsDrive, DiskOnTwoSupportsScene};
 
@@ -28,6 +31,35 @@ impl<E: DiskOnTwoSupportsDrive> DiskOnTwoSupportsScene<E> {
     pub(super) fn force_per_angle(&self) -> f64 {
         let setup = self.engine.setup();
         2.0 * setup.tangential.stiffness * setup.radius
+    }
+
+    /// The contacts that overlap; positions count from where the disk just touches both supports at rest.
+    pub(super) fn closed_contacts(&self) -> impl Iterator<Item = ContactNow> {
+        let (setup, disk) = (self.engine.setup(), self.now().disk);
+        let [x, y, _] = place(&disk);
+        let closed = (0..2).filter(|&index| self.contacts[index].overlap > 0.0);
+        closed.map(move |index| {
+            let (frame, force) = (&setup.frames[index], self.contacts[index]);
+            let motion = kinematics(
+                frame,
+                setup.curvature,
+                setup.radius,
+                place(&disk),
+                rates(&disk),
+                &self.support(index),
+            );
+            let along = |axis: usize| motion.normal * frame.normal[axis] + motion.tangent * frame.tangent[axis];
+            let normal = [along(0), along(1)];
+            let inside = setup.radius - 0.5 * force.overlap;
+            ContactNow {
+                first: 0,
+                other: Touched::Wall(index as u32),
+                point: [x - inside * normal[0], y - inside * normal[1]],
+                normal,
+                normal_force: force.normal,
+                tangential_force: force.tangential,
+            }
+        })
     }
 
     /// Energy of translation and rotation \[J\].

@@ -10,7 +10,8 @@ use crate::scene::disks_on_base::{DisksOnBase, StepReport, Stretch, complete, na
 use crate::scene::soft_disks::{SceneNormalForce, chosen_time_step, contact_laws, refused_step};
 use crate::scene::work_limit::WorkLimit;
 use crate::scene::{
-    Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning, info,
+    Error, Listing, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning,
+    contact_list, info,
 };
 
 use super::initial_packing::{self, NAME};
@@ -292,6 +293,13 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
         rows.extend(Self::energies_and_contacts(&at_start));
         rows.extend(rows::each_disk(disks, &at_start));
         complete(rows)
+    }
+
+    fn listings() -> Vec<Listing<Self>> {
+        let contacts = |packing: &Self, numbers: &mut Vec<f64>| {
+            contact_list::append(packing.engine.contacts(), numbers);
+        };
+        vec![contact_list::listing(contacts)]
     }
 
     fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {

@@ -3,7 +3,7 @@
 use crate::drive::Motion;
 use crate::engine::{DiskMotion, Engine};
 use crate::error::are_sane;
-use crate::scene::{Error, Result, Row, Values, Warning};
+use crate::scene::{Error, Listing, Result, Row, Values, Warning};
 
 /// Energies per mass of the disk \[J/kg\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,6 +63,11 @@ pub trait WedgeEngine: Engine {
     fn drive_rows<M>() -> Vec<Row<M>>;
     /// Outputs that other engines do not have, of a scene M that holds this one.
     fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>>;
+
+    /// Lists that other engines do not have.
+    fn listings<M: AsRef<Self>>() -> Vec<Listing<M>> {
+        Vec::new()
+    }
 
     /// The disk at the start.
     ///

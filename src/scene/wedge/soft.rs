@@ -11,7 +11,7 @@ use crate::geometry::{Disk, Vector2, Wall, clockwise};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::names;
 use crate::scene::soft_disks::{STEP_OF_ONE_DISK, chosen_time_step, contact_laws, refused_step};
-use crate::scene::{Error, Result, Row, Unit, Values, Warning};
+use crate::scene::{Error, Listing, Result, Row, Unit, Values, Warning, contact_list};
 
 use super::engine::{AtStart, SpecificEnergies, WedgeEngine};
 use super::rows::{self, NAME};
@@ -86,6 +86,11 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
                 i64::from(scene.as_ref().now().contacts)
             }),
         ]
+    }
+
+    fn listings<M: AsRef<Self>>() -> Vec<Listing<M>> {
+        let contacts = |scene: &M, numbers: &mut Vec<f64>| contact_list::append(scene.as_ref().contacts(), numbers);
+        vec![contact_list::listing(contacts)]
     }
 
     fn from_values(start_time: f64, values: &Values) -> Result<Self> {

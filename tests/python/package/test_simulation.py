@@ -199,3 +199,24 @@ def test_processes_take_simulations() -> None:
 def _advanced(sim: jostle.Simulation) -> list[float]:
     sim.step(0.1)
     return list(sim["disk.angle"])
+
+
+def test_contacts_carry_the_weight() -> None:
+    simulation = jostle.Simulation("packing", disks=20, **{"box.width": 0.15})
+    simulation.run(1.0, every=1.0, outputs=[])  # at rest
+    table = simulation.contacts()
+    assert len(table) == simulation["contacts"]
+    mass = simulation["disk.surface_density"] * np.pi * (simulation["disk.radius"] ** 2).sum()
+    on_base = table[table.wall == 1]
+    assert on_base.normal_y.to_numpy() == pytest.approx(1.0)
+    sides = table[table.wall > 1]
+    # The tangent of the left wall's normal (1, 0) points down, that of the right wall's up.
+    friction = (np.where(sides.wall == 2, -1.0, 1.0) * sides.tangential_force).sum()
+    assert on_base.normal_force.sum() + friction == pytest.approx(9.8 * mass, rel=1e-3)
+    assert table.attrs["units"]["tangential_force"] == "N"
+    assert table[["first", "second", "wall"]].dtypes.eq(int).all()
+
+
+def test_impacts_are_no_contacts() -> None:
+    with pytest.raises(jostle.CallError, match=r"packing, engine event-driven.*no list contacts"):
+        jostle.Simulation("packing", engine="event-driven").contacts()

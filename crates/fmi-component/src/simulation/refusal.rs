@@ -1,10 +1,17 @@
-//! The refusal of parameters that do not go together, as the user should read it.
+//! Refusals of a simulation, as the user should read them.
 
 use crate::error::Error;
+use crate::info::ModelInfo;
 use crate::values::Values;
 
 /// Parameters that are named at most where another is to blame.
 const MOST_NAMED: usize = 6;
+
+/// Name and variant of a model: `packing, engine event-driven, drive sine`.
+pub fn named(info: &ModelInfo) -> String {
+    let variant = info.variant.iter().map(|(key, value)| format!(", {key} {value}"));
+    info.name.to_string() + &variant.collect::<String>()
+}
 
 /// The refusal of a parameter that nobody has set, with what was set: of two values that do not go together the model names one,
 /// and the user may have given the other.

@@ -22,6 +22,7 @@ mod step;
 
 use crate::contact::LinearDashpot;
 use crate::drive::{Drive, Motion};
+use crate::engine::{ContactNow, Touched};
 use crate::error::are_sane;
 use crate::geometry::Disk;
 
@@ -154,6 +155,20 @@ impl Stepper for EventStepper {
             + disks.wall_contacts.iter().map(energy_of_wall).sum::<f64>()
     }
 
+    fn contacts(&self, disks: &Disks, base: Motion) -> Vec<ContactNow> {
+        let arrays = self.arrays(disks);
+        let pairs = disks.pairs.iter().map(|pair| {
+            let now = arrays.of_pair(pair.bodies());
+            self.contact_now(disks, pair, Touched::Disk(pair.second), now)
+        });
+        let walls = disks.wall_contacts.iter().map(|contact| {
+            let [disk, wall] = contact.bodies();
+            let now = arrays.of_wall(disk, &self.constants.setup.walls[wall], &base);
+            self.contact_now(disks, contact, Touched::Wall(contact.second), now)
+        });
+        pairs.chain(walls).flatten().collect()
+    }
+
     fn is_sane(disks: &Disks) -> bool {
         let motion = disks.positions.iter().chain(&disks.velocities).flatten();
         are_sane(motion.chain(disks.wall_impulses.iter().flatten()).copied())
@@ -206,6 +221,25 @@ impl EventStepper {
         state.energy_lost += sums.lost;
         state.contacts = sums.contacts;
         Ok(())
+    }
+
+    /// A closed contact with this relative motion; none if it is open.
+    fn contact_now(&self, disks: &Disks, contact: &Contact, other: Touched, now: Kinematics) -> Option<ContactNow> {
+        if !contact.remembers() {
+            return None;
+        }
+        let disk = contact.first as usize;
+        let ([x, y, _], [nx, ny]) = (disks.positions[disk], now.normal);
+        let inside = self.constants.radii[disk] - 0.5 * now.overlap;
+        let [normal_force, tangential_force] = self.laws.forces(contact, now.overlap, now.closing);
+        Some(ContactNow {
+            first: contact.first,
+            other,
+            point: [x - inside * nx, y - inside * ny],
+            normal: [nx, ny],
+            normal_force,
+            tangential_force,
+        })
     }
 
     fn arrays<'s>(&'s self, disks: &'s Disks) -> DiskArrays<'s> {

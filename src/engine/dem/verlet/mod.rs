@@ -2,6 +2,7 @@
 //!
 //! Momentum is conserved to rounding: the impulses of the walls obey the recursion of the momenta.
 
+mod closed_contacts;
 mod contact_laws;
 pub(super) mod contacts;
 mod forces;
@@ -16,6 +17,7 @@ use std::marker::PhantomData;
 use crate::contact::{LinearDashpot, NormalForce};
 use crate::drive::{Drive, Motion};
 use crate::elementary::hypot;
+use crate::engine::ContactNow;
 use crate::error::are_sane;
 use crate::geometry::Disk;
 
@@ -29,6 +31,7 @@ pub use gear::Gear5;
 pub use integrator::{Coordinates, Integrator, VelocityVerlet};
 pub use state::Disks;
 
+use closed_contacts::Closed;
 use contact_laws::{ForceSums, LaneLaws, LaneSums};
 use forces::{DiskArrays, ForceArrays, MovingWalls, pair_forces, wall_forces};
 use neighbour_list::{NeighbourList, farthest_squared, inner_margin};
@@ -173,6 +176,15 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
             elastic += energy(self.constants.radii[contact.disk as usize] - distance, &contact.spring);
         }
         elastic
+    }
+
+    fn contacts(&self, disks: &Disks, base: Motion) -> Vec<ContactNow> {
+        let closed = Closed {
+            constants: &self.constants,
+            disks,
+            base,
+        };
+        closed.all()
     }
 
     fn is_sane(disks: &Disks) -> bool {

@@ -1,5 +1,7 @@
 //! The list `contacts` against Newton's equations: what it says of the contacts is what moves the disks.
 
+#![allow(clippy::unwrap_used)]
+
 use jostle::scene::{AnySimulation, Selection, Value};
 
 /// Rows of the list at one instant.

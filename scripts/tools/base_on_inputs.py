@@ -4,7 +4,6 @@ FMUs are written with `jostle fmu` into a temporary folder and run through fmpy,
 at each communication point, then the step is done. `python -m tools base-on-inputs` measures and writes the page.
 """
 
-import os
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -22,6 +21,7 @@ from jostle_lab.programs import output_of
 from jostle_lab.statistics.estimates import Estimate
 from jostle_lab.tables import markdown_table, read_text_rows, write_table
 from tools.paths import BASE_ON_INPUTS, BASE_ON_INPUTS_PAGE
+from tools.processor import processor
 
 FREQUENCY, GRAVITY = 80.0, 9.8
 OMEGA = 2 * np.pi * FREQUENCY
@@ -216,12 +216,6 @@ def _earlier(name: str, samples: int) -> str:
     return f"{position:g} ({acceleration:g})"
 
 
-def _processor() -> str:
-    lines = Path("/proc/cpuinfo").read_text().splitlines() if Path("/proc/cpuinfo").is_file() else []
-    names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
-    return f"{names[0] if names else 'not known'}, {os.cpu_count()} cores"
-
-
 def base_on_inputs(
     compute: Annotated[bool, typer.Option(help="Measure anew; without it the page is written from the files.")] = False,
     program: Annotated[Path | None, typer.Option(help="The program `jostle`.")] = None,
@@ -237,7 +231,7 @@ def base_on_inputs(
             bundle(locate.program(program), folder)
             write_table(data / "motion.csv", list(motion_rows(folder)))
             write_table(data / "energy.csv", energy_rows(folder, jobs))
-        (data / "processor.txt").write_text(f"{_processor()}\n")
+        (data / "processor.txt").write_text(f"{processor()}\n")
     elif not (data / "motion.csv").is_file():
         raise LabError(f"{data} has no motion.csv. Measure first: python -m tools base-on-inputs --compute")
     out.write_text(page(data))

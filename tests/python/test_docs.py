@@ -178,6 +178,11 @@ def test_runs_of_the_command_line_become_arrays():
     assert force and float(force[1]) == pytest.approx(-WEIGHT, rel=0.05), seen
 
 
+def test_a_page_is_written():
+    shell(snippet("docs/live.md", "sh", "view"))
+    assert "jostle/app" in (BUILD / "ratchet.html").read_text()
+
+
 def test_sweep_writes_parquet():
     run("rm", "-rf", str(BUILD / "sweep"))
     script = snippet(PHYSICIST, "sh", "sweep")

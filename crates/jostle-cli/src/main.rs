@@ -21,6 +21,7 @@ mod selection;
 mod standard_output;
 mod text;
 mod theory;
+mod view;
 
 use std::process::ExitCode;
 
@@ -42,6 +43,7 @@ enum Command {
     Replay(replay::Replay),
     Run(run::Run),
     Theory(theory::Theory),
+    View(view::View),
 }
 
 /// Reads the arguments, does what they say, reports.
@@ -53,6 +55,7 @@ fn main() -> ExitCode {
         Command::Fmu(fmu) => fmu.execute(),
         Command::Run(run) => run.execute(),
         Command::Theory(theory) => theory.execute(),
+        Command::View(view) => view.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

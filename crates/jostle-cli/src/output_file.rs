@@ -1,6 +1,6 @@
 //! The name of a file that is to be written.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use jostle::Error;
 
@@ -29,6 +29,25 @@ pub fn check_fmu(option: &str, path: &Path) -> Result<(), Error> {
     match ending(path) == "fmu" {
         true => Ok(()),
         false => Err(refused(option, path, "fmu", "by which importers know an FMU")),
+    }
+}
+
+/// Refuses a name that does not end as that of a page.
+///
+/// # Errors
+/// Another ending, or none: browsers go by it.
+pub fn check_html(option: &str, path: &Path) -> Result<(), Error> {
+    match matches!(ending(path).as_str(), "html" | "htm") {
+        true => Ok(()),
+        false => Err(refused(option, path, "html", "by which browsers know a page")),
+    }
+}
+
+/// `run.parameters.csv` beside `run.csv`. Other endings stay, so that `gamma0.1` and `gamma0.2` have a file each.
+pub fn beside(path: &Path, ending: &str) -> PathBuf {
+    match path.extension() {
+        Some(known) if known == "csv" => path.with_extension(ending),
+        _ => path.with_added_extension(ending),
     }
 }
 

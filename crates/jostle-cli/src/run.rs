@@ -98,12 +98,9 @@ impl Run {
         ))
     }
 
-    /// `run.parameters.csv` for `run.csv`. Other endings stay, so that `gamma0.1` and `gamma0.2` have a file each.
+    /// See [`output_file::beside`].
     fn parameter_file(&self) -> PathBuf {
-        match self.output.extension() {
-            Some(ending) if ending == "csv" => self.output.with_extension("parameters.csv"),
-            _ => self.output.with_added_extension("parameters.csv"),
-        }
+        output_file::beside(&self.output, "parameters.csv")
     }
 }
 

@@ -178,17 +178,19 @@ def test_runs_of_the_command_line_become_arrays():
     assert force and float(force[1]) == pytest.approx(-WEIGHT, rel=0.05), seen
 
 
-def test_sweep_writes_parquet():
+def test_sweep_writes_parquet_that_pandas_reads():
     run("rm", "-rf", str(BUILD / "sweep"))
-    script = snippet(PHYSICIST, "sh", "sweep")
-    shell(script.replace("sweep build/grid.toml", f"sweep build/grid.toml --program {RELEASE / 'jostle'}"))
+    shell(snippet(PHYSICIST, "sh", "sweep"))
     assert list((BUILD / "sweep").glob("part-*.parquet"))
+    rows = python(snippet(PHYSICIST, "python", "sweep")).splitlines()[2:]
+    assert [float(row.split()[0]) for row in rows] == [20.0, 30.0]
+    assert all(len(row.split()) == 3 for row in rows)
 
 
 def test_grid_of_the_page_of_figures_is_read():
     (BUILD / "page.toml").write_text(snippet("docs/figures.md", "toml", "grid"))
     small = ["--seconds", "0.02", "--seeds", "1", "--grid", "drive.frequency=15", "--grid", "disks=5"]
-    places = ["--program", str(RELEASE / "jostle"), "--results", str(BUILD / "sweep-page")]
+    places = ["--results", str(BUILD / "sweep-page")]
     run(sys.executable, "-m", "jostle_lab", "sweep", str(BUILD / "page.toml"), *small, *places)
     assert list((BUILD / "sweep-page").glob("part-*.parquet"))
 

@@ -1,6 +1,8 @@
 """Runs of the native command line: many at a time, each kept on disk by joblib and never done twice.
 
 A run is found again by its arguments and by the program itself: rebuild the program and everything is run anew.
+It is the program and not the Python package, as in sweeps: a study reads every row of every output, which the program
+writes in the form that is kept, and asks the program for the theory, too. So one fingerprint names all of a record.
 """
 
 from collections.abc import Callable, Iterator, Sequence

@@ -64,7 +64,7 @@ class Child:
         return self._process.returncode is None
 
     def perform(self, run: Run, limit: float | None) -> Performed:
-        """Do a run, for at most `limit` [s] on the clock. That it took longer, or that the process died, is its error."""
+        """Do a run, for at most `limit` [s] on the clock; that it takes longer, or its process dies, is its error."""
         begun = time.perf_counter()
         before, outputs = self._spent, {}
         try:

@@ -12,6 +12,7 @@ COMMANDS = (
     "tools.release.command:verify",
     "tools.notices:notices",
     "tools.readme_picture:readme_picture",
+    "tools.notebooks:notebooks",
     "tools.two_builds:two_builds",
 )
 

@@ -45,4 +45,4 @@ def variables(scene: str, engine: str, drive: str, disks: int | None = None) -> 
 @lru_cache
 def _scalar_outputs(scene: str, engine: str, drive: str) -> list[str]:
     found = variables(scene, engine, drive).values()
-    return [variable.name for variable in found if variable.causality == "output" and not variable.is_array]
+    return [v.name for v in found if v.causality == "output" and not v.is_array and "[" not in v.name]

@@ -233,9 +233,10 @@ def test_a_parameter_beside_outputs_with_numbers_of_the_same_name_keeps_its_name
     assert data["support[1].angle"].dims == ("time",) and data["support[1].angle"].values[-1] == sim["support[1].angle"]
 
 
-@pytest.mark.parametrize(
-    "row", jostle.scenes().itertuples(index=False), ids=lambda row: f"{row.scene}-{row.engine}-{row.drive}"
-)
+SCENES = list(jostle.scenes()[["scene", "engine", "drive"]].itertuples(index=False))
+
+
+@pytest.mark.parametrize("row", SCENES, ids="-".join)
 def test_every_element_of_every_scene_is_found_by_its_name(row: Any) -> None:
     names = [known[0] for known in Core(row.scene, row.engine, row.drive, None).variables()]
     variables = grouped(Core(row.scene, row.engine, row.drive, None).variables())

@@ -10,7 +10,7 @@ from jostle_lab import locate, options
 from jostle_lab.errors import LabError
 from jostle_lab.runs.build import Build
 from jostle_lab.runs.grid import ENGINES, make_grid, read_grid
-from jostle_lab.runs.limits import Parameters, of_package, of_program, refuse_what_no_run_takes
+from jostle_lab.runs.limits import Parameters, of_package, of_program, refuse_what_no_run_takes, without_needless_seeds
 
 
 def sweep(
@@ -54,8 +54,8 @@ def sweep(
     options.once("--grid", [name for name, _ in named])
     changes["grid"] = dict(named)
     grid = read_grid(file, changes) if file is not None else make_grid({}, changes, "sweep")
-    runs = grid.runs()
     build, known = _build(program, limit)
+    runs = without_needless_seeds(known, grid.runs())
     refuse_what_no_run_takes(known, runs)
     rows = Sweep(Store(results), build, Workers(scheduler, processes), progress, retry_failed).run(runs)
     states = Counter(row["state"] for row in rows.values())

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from jostle_lab.errors import LabError, did_you_mean
@@ -52,6 +53,18 @@ def _range(text: str) -> Range:
         return float(low), float(high)
     numbers = [int(number) for number in re.findall(r"(?:^|, )(\d+) \S", text)]
     return (min(numbers), max(numbers)) if numbers else ANY
+
+
+def without_needless_seeds(parameters: Parameters, runs: Sequence[Run]) -> Sequence[Run]:
+    """The runs, without their seed if nothing in the scene is random; raises LabError for several seeds then."""
+    if "seed" in parameters(runs[0], None):
+        return runs
+    if len({run.seed for run in runs}) > 1:
+        raise LabError(
+            f"Nothing in {runs[0].scene} with the drive {runs[0].drive} is random: all seeds give the same run. "
+            "Take one seed, or another drive."
+        )
+    return [replace(run, settings=tuple(one for one in run.settings if one[0] != "seed")) for run in runs]
 
 
 def refuse_what_no_run_takes(parameters: Parameters, runs: Sequence[Run]) -> None:

@@ -1,7 +1,8 @@
 """Runs onto workers, rows into the store as they come: joblib on this machine, Dask on others."""
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from typing import Any
 
@@ -34,7 +35,7 @@ class Workers:
     patience: float = 10.0
     """How long the scheduler may take to answer [s]."""
 
-    def rows(self, build: Build, runs: Sequence[Run]) -> Iterator[Row]:
+    def rows(self, build: Build, runs: Sequence[Run]) -> Generator[Row]:
         """Rows in the order in which the runs end. Raises LabError for a wrong program or a lost scheduler."""
         if self.scheduler is not None:
             with client(self.scheduler, self.patience) as connected:
@@ -47,7 +48,7 @@ class Workers:
         finally:
             CHILDREN.end()
 
-    def _remote_rows(self, connected: Any, build: Build, runs: Sequence[Run]) -> Iterator[Row]:
+    def _remote_rows(self, connected: Any, build: Build, runs: Sequence[Run]) -> Generator[Row]:
         """Only so many runs are with the scheduler at a time."""
         left = iter(runs)
         of_future: dict[Any, Run] = {}
@@ -120,13 +121,14 @@ class Sweep:
         rows: list[Row] = []
         written = time.monotonic()
         try:
-            for row in self.workers.rows(self.build, missing):
-                rows.append(row)
-                failed += row["state"] == FAILED
-                bar.set_postfix(failed=failed, refresh=False)
-                bar.update()
-                if time.monotonic() - written >= BETWEEN_PARTS:
-                    self.store.append(rows)
-                    rows, written = [], time.monotonic()
+            with closing(self.workers.rows(self.build, missing)) as done:  # so that no run goes on when this ends
+                for row in done:
+                    rows.append(row)
+                    failed += row["state"] == FAILED
+                    bar.set_postfix(failed=failed, refresh=False)
+                    bar.update()
+                    if time.monotonic() - written >= BETWEEN_PARTS:
+                        self.store.append(rows)
+                        rows, written = [], time.monotonic()
         finally:
             self.store.append(rows)

@@ -295,6 +295,16 @@ def test_a_run_over_the_limit_is_a_failure(tmp_path: Path, build: Build) -> None
     assert rows[endless]["processor_seconds"] > 0.0
 
 
+def test_a_scene_without_chance_is_swept_without_seeds(tmp_path: Path) -> None:
+    words = ["sweep", "--scene", "three_disk", "--seconds", "0.1", "--grid", "tilt=0.1,0.2", "--no-progress"]
+    words += ["--results", str(tmp_path)]
+    done = CliRunner().invoke(application("", command_sweep), words)
+    assert "2 runs" in done.output and "2 done, 0 failed" in done.output, done
+    assert {row["seed"] for row in Store(tmp_path).rows().values()} == {None}
+    refused = CliRunner().invoke(application("", command_sweep), [*words, "--seeds", "2"]).exception
+    assert isinstance(refused, LabError) and "all seeds give the same run" in str(refused)
+
+
 def test_another_program_ends_the_sweep_and_records_nothing(tmp_path: Path, program: Program) -> None:
     run = Run("ratchet", "event-driven", 1.0, 1.0, (("seed", 1),))
     with pytest.raises(LabError, match="Put the same program there"):

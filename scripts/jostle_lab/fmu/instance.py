@@ -6,6 +6,7 @@ scene mean (`packing`, `ratchet`, `disk_on_two_supports`).
 """
 
 import ctypes
+import json
 import shutil
 import zipfile
 import zlib
@@ -312,6 +313,35 @@ class FmuInstance:
     def discard(self, saved: Any) -> None:
         """Free `saved`."""
         (self._fmu.freeFMUstate if self.fmi_version == 2 else self._fmu.freeFMUState)(saved[0])
+
+    @property
+    def can_serialise(self) -> bool:
+        """Whether it has the functions for its state as bytes."""
+        return self.can_save and bool(self._description.coSimulation.canSerializeFMUstate)
+
+    def to_bytes(self) -> bytes:
+        """The state, for an instance with the same parameters in another process."""
+        state, clock = self.save()
+        try:
+            serialise = self._fmu.serializeFMUstate if self.fmi_version == 2 else self._fmu.serializeFMUState
+            return json.dumps(clock).encode() + b"\n" + bytes(serialise(state))
+        finally:
+            self.discard((state, clock))
+
+    def from_bytes(self, state: bytes) -> None:
+        """Go on from a state that `to_bytes` gave.
+
+        Raises LabError if the FMU refuses it.
+        """
+        clock, _, kept = state.partition(b"\n")
+        read = self._fmu.deSerializeFMUstate if self.fmi_version == 2 else self._fmu.deserializeFMUState
+        try:
+            saved = read(kept), tuple(json.loads(clock))
+        except (FMICallException, ValueError) as error:
+            said = " ".join(self._log[-1:]) or f"{str(error).rstrip('.')}."
+            raise LabError(f"{self.path} refuses the state that was kept of it. {said}") from error
+        self.restore(saved)
+        self.discard(saved)
 
     def _clock(self) -> tuple[Any, ...]:
         return (self.time,)

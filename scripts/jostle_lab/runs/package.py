@@ -9,6 +9,7 @@ import socket
 import sys
 from dataclasses import dataclass
 
+from jostle_lab import stopping
 from jostle_lab.errors import LabError
 from jostle_lab.runs.build import Performed
 from jostle_lab.runs.child import Children
@@ -45,4 +46,7 @@ class Package:
                     f"{socket.gethostname()}: the package jostle is build {child.version}, the sweep was started with "
                     f"{self.version}. Put the same package there."
                 )
-            return child.perform(run, self.limit)
+            with stopping.calling(child.kill):
+                done = child.perform(run, self.limit)
+            stopping.check()  # one that was ended by a signal has not failed
+            return done

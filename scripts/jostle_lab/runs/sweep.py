@@ -1,21 +1,22 @@
 """Runs onto workers, rows into the store as they come: joblib on this machine, Dask on others."""
 
 import time
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from typing import Any
 
 from joblib import Parallel, delayed
-from tqdm import tqdm
 
 from jostle_lab.errors import LabError
+from jostle_lab.progress import progress
 from jostle_lab.runs.build import Build, key
 from jostle_lab.runs.dask_backend import client, distributed
 from jostle_lab.runs.package import CHILDREN
 from jostle_lab.runs.run import Run
 from jostle_lab.runs.store import Store
 from jostle_lab.runs.worker import FAILED, failure, perform
+from jostle_lab.stopping import telling
 from jostle_lab.tables import Row
 
 BETWEEN_PARTS = 1.0
@@ -100,18 +101,24 @@ class Sweep:
             kept = self.store.rows()
             missing = [run for run, key in keys.items() if self._wanted(kept.get(key))]
             failed = sum(kept[key]["state"] == FAILED for key in keys.values() if not self._wanted(kept.get(key)))
-            with tqdm(
+            bar = progress(
                 total=len(keys),
-                initial=len(keys) - len(missing),
-                unit="run",
-                desc=title,
-                disable=not self.show_progress,
+                done=len(keys) - len(missing),
+                unit="runs",
+                what=title,
+                show=self.show_progress,
                 postfix={"failed": failed},
-            ) as bar:
+            )
+            with telling(lambda: self._kept(keys)), bar:
                 if missing:
                     self._perform(missing, bar, failed)
                     kept = self.store.rows()
         return {run: kept[key] for run, key in keys.items()}
+
+    def _kept(self, keys: Mapping[Run, str]) -> str:
+        rows = self.store.rows()
+        there = sum(key in rows for key in keys.values())
+        return f"{there} of {len(keys)} runs are kept in {self.store.folder}. The same command does the others."
 
     def _wanted(self, row: Row | None) -> bool:
         return row is None or (self.retry_failed and row["state"] == FAILED)

@@ -15,6 +15,9 @@ LINE = "{desc}: {percentage:.0f} %, {n_fmt} of {total_fmt} {unit}, {elapsed} gon
 class _Lines(tqdm):  # type: ignore[misc]
     """Progress as plain lines."""
 
+    disable: bool
+    n: float
+
     def display(self, msg: str | None = None, pos: int | None = None) -> None:
         """A line with what is done."""
         del pos

@@ -120,9 +120,8 @@ def stoppable() -> Iterator[None]:
         # Typer makes an exit code of its own of KeyboardInterrupt.
         if _State.number is None:
             raise
-        _say(
-            f"\nstopped by {SIGNALS[_State.number]}. Files that are written already stay; the command may be repeated.\n"
-        )
+        said = "Files that are written already stay; the command may be repeated."
+        _say(f"\nstopped by {SIGNALS[_State.number]}. {said}\n")
         raise SystemExit(128 + _State.number) from None
     finally:
         for number, handler in before.items():

@@ -53,8 +53,9 @@ class Grains(Protocol):
     def discard(self, saved: Any) -> None:
         """Free `saved`."""
 
-    can_serialise: bool
-    """Whether the next two can be called."""
+    @property
+    def can_serialise(self) -> bool:
+        """Whether the next two can be called."""
 
     def to_bytes(self) -> bytes:
         """The state, for another process."""

@@ -31,9 +31,10 @@ class Checkpoint(NamedTuple):
 
 def save(folder: Path, checkpoint: Checkpoint) -> None:
     """Write the file of a folder."""
-    plain = np.frombuffer(json.dumps(checkpoint.plain, default=lambda value: value.item()).encode(), np.uint8)
+    text = json.dumps(checkpoint.plain, default=lambda value: value.item())
+    arrays: dict[str, Any] = {PLAIN: np.frombuffer(text.encode(), np.uint8), **checkpoint.arrays}
     with replacing(folder / FILE) as draft, draft.open("wb") as file:
-        np.savez(file, **{PLAIN: plain}, **checkpoint.arrays)
+        np.savez(file, **arrays)
 
 
 def plain(folder: Path) -> dict[str, Any] | None:

@@ -90,12 +90,12 @@ def run(plan: Plan, factory: GrainsFactory, watcher: Watcher = NOBODY) -> None:
     """
     plan.results.mkdir(parents=True, exist_ok=True)
     with held(plan.results, "run of packings"):
+        claim(plan)
         run_in_held_folder(plan, factory, watcher)
 
 
 def run_in_held_folder(plan: Plan, factory: GrainsFactory, watcher: Watcher = NOBODY) -> None:
-    """As `run`, for a caller that holds the folder itself."""
-    _claim(plan)
+    """As `run`, for a caller that holds the folder and has claimed it."""
     jobs = [(seed, plan.packing_folder(seed)) for seed in plan.seeds if not plan.is_finished(seed)]
     done, total = plan.seconds_kept(), plan.seconds()
     if not jobs:
@@ -122,7 +122,7 @@ def run_in_held_folder(plan: Plan, factory: GrainsFactory, watcher: Watcher = NO
         shake_all(jobs, plan.setup, factory, plan.processes, report, lambda: watcher.tick(done / total))
 
 
-def _claim(plan: Plan) -> None:
+def claim(plan: Plan) -> None:
     """Write what is being run, or refuse a folder that holds something else."""
     description = {**dict(plan.labels), "setup": json.loads(json.dumps(asdict(plan.setup)))}
     file = plan.results / "run.json"

@@ -8,6 +8,7 @@ scene mean (`packing`, `ratchet`, `disk_on_two_supports`).
 import ctypes
 import json
 import shutil
+import tempfile
 import zipfile
 import zlib
 from collections.abc import Callable, Mapping, Sequence
@@ -62,6 +63,21 @@ def fingerprint(path: Path) -> str:
     with archive:
         sums = [entry.CRC for entry in archive.infolist() if entry.filename.startswith("binaries/")]
     return f"{zlib.crc32(repr(sums).encode()):08x}"
+
+
+def _unpacked(path: Path) -> str:
+    """A temporary folder with what is in an FMU; raises LabError if there is no room for it."""
+    folder = tempfile.mkdtemp(prefix="jostle-fmu-")
+    try:
+        extract(str(path), unzipdir=folder)
+    except OSError as error:
+        shutil.rmtree(folder, ignore_errors=True)
+        there = tempfile.gettempdir()
+        raise LabError(
+            f"{path} cannot be unpacked in {there}: {error.strerror or error}. Make room there, or name another folder "
+            "with TMPDIR."
+        ) from None
+    return folder
 
 
 class Group:
@@ -123,7 +139,7 @@ class FmuInstance:
         self._description = describe(path, self.scene)
         self._variables = {v.name: v for v in self._description.modelVariables}
         self._temporary = directory is None
-        self._directory = str(directory) if directory is not None else extract(str(path))
+        self._directory = str(directory) if directory is not None else _unpacked(path)
         self._fmu: Any = None
         try:
             self._instantiate()

@@ -24,6 +24,7 @@ from jostle_lab.protocol.experiment import Progress, Setup, run_packing
 
 ENDING = 1.0
 """What a worker may take to end before it is killed [s]."""
+OF_A_TERMINAL = sorted(set(stopping.SIGNALS) - {signal.SIGTERM})
 TICK = 0.2
 """Longest time between two calls of `on_tick` while nothing comes [s]."""
 
@@ -44,7 +45,8 @@ def shake_all(
     `on_report` is called with what they report, `on_tick` every `TICK` or more often. Raises the first error of a
     worker.
     """
-    reports = get_context("spawn").Queue()
+    with _no_interrupt():
+        reports = get_context("spawn").Queue()
     with _pool(min(processes, max(len(jobs), 1)), reports) as pool:
         with _no_interrupt():
             futures = [pool.submit(_work, factory, setup, seed, folder) for seed, folder in jobs]
@@ -78,20 +80,22 @@ def _end_workers() -> None:
 
 @contextmanager
 def _no_interrupt() -> Iterator[None]:
-    """Processes that are started here never see Ctrl-C, of which each would print a traceback: they are terminated."""
-    handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """Processes that are started here never see what reaches all of a terminal; each would print a traceback.
+
+    Those that shake are terminated. The one that multiprocessing starts to clean up ends with the last of them.
+    """
+    handlers = {number: signal.signal(number, signal.SIG_IGN) for number in OF_A_TERMINAL}
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, handler)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
 
 
 def _attach(reports: Any) -> None:
     global _reports  # noqa: PLW0603 - a queue can only be inherited, not sent with a job
     _reports = reports
-    for number in stopping.SIGNALS:
-        if number != signal.SIGINT:
-            signal.signal(number, _end)
+    signal.signal(signal.SIGTERM, _end)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 

@@ -10,7 +10,7 @@ import typer
 from jostle_lab import locate, options
 from jostle_lab.coupling.exchange import Exchange
 from jostle_lab.demos.packing import schedules
-from jostle_lab.errors import LabError
+from jostle_lab.errors import LabError, describe_os_error
 from jostle_lab.protocol import intervals
 
 if TYPE_CHECKING:
@@ -146,7 +146,9 @@ def _shake_and_draw(plan: "Plan", factory: "FmuFactory", pictures: bool, started
             live.ended(plan.kept())
             raise
         except (LabError, OSError) as error:
-            live.ended(f"{error} {plan.kept()}")
+            kept = plan.kept()
+            live.ended(f"{describe_os_error(error) if isinstance(error, OSError) else error} {kept}")
+            typer.echo(f"\n{kept}", err=True)
             raise
         live.finished()
 

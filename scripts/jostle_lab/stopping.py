@@ -106,6 +106,14 @@ def _handle(number: int, _frame: Any) -> None:
         os._exit(128 + number)
 
 
+def _wait_for_threads() -> None:
+    """Threads whose programs were ended remove their temporary folders; the end of the process would cut that off."""
+    deadline = time.monotonic() + 0.5 * PATIENCE
+    while _State.on_stop and time.monotonic() < deadline:
+        time.sleep(0.01)
+    time.sleep(0.1)
+
+
 @contextmanager
 def stoppable() -> Iterator[None]:
     """In the main thread: a command that signals stop. It ends with exit code 128 + the number of the signal."""
@@ -124,6 +132,8 @@ def stoppable() -> Iterator[None]:
         _say(f"\nstopped by {SIGNALS[_State.number]}. {said}\n")
         raise SystemExit(128 + _State.number) from None
     finally:
+        if _State.number is not None:
+            _wait_for_threads()
         for number, handler in before.items():
             signal.signal(number, handler)
         _State.number, _State.told = None, False

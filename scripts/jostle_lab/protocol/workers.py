@@ -5,13 +5,15 @@ A worker ends by SIGTERM, or when its parent is gone, however that ended. Ctrl-C
 
 import os
 import queue
+import shutil
 import signal
+import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from multiprocessing import active_children, get_context, parent_process
 from multiprocessing.connection import wait
 from pathlib import Path
@@ -19,7 +21,7 @@ from typing import Any
 
 from jostle_lab import stopping
 from jostle_lab.errors import LabError
-from jostle_lab.fmu.grains import Grains, GrainsFactory
+from jostle_lab.fmu.grains import GrainsFactory
 from jostle_lab.protocol.experiment import Progress, Setup, run_packing
 
 ENDING = 1.0
@@ -29,7 +31,7 @@ TICK = 0.2
 """Longest time between two calls of `on_tick` while nothing comes [s]."""
 
 _reports: Any = None  # the queue of this worker process
-_grains: Grains | None = None  # those it shakes
+_room: tempfile.TemporaryDirectory[str] | None = None  # for its temporary files
 
 
 def shake_all(
@@ -93,8 +95,10 @@ def _no_interrupt() -> Iterator[None]:
 
 
 def _attach(reports: Any) -> None:
-    global _reports  # noqa: PLW0603 - a queue can only be inherited, not sent with a job
+    global _reports, _room  # noqa: PLW0603 - a queue can only be inherited, not sent with a job
     _reports = reports
+    _room = tempfile.TemporaryDirectory(prefix="jostle-worker-")
+    tempfile.tempdir = _room.name
     signal.signal(signal.SIGTERM, _end)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
@@ -108,20 +112,15 @@ def _end_with_parent() -> None:
 
 
 def _end(*_: object) -> None:
-    """End this process at once, but remove what its FMU was unpacked into."""
-    if _grains is not None:
-        _grains.close()
+    """End this process at once, but remove what its FMU is unpacked into, however far that is."""
+    if _room is not None:
+        shutil.rmtree(_room.name, ignore_errors=True)
     os._exit(1)
 
 
 def _work(factory: GrainsFactory, setup: Setup, seed: int, folder: Path) -> None:
-    global _grains  # noqa: PLW0603 - what a signal must find
-    _grains = grains = factory(seed, setup.exchange.parameters)
-    try:
+    with closing(factory(seed, setup.exchange.parameters)) as grains:
         run_packing(grains, setup, seed, folder, _reports.put)
-    finally:
-        _grains = None
-        grains.close()
 
 
 def _wait(futures: list["Future[None]"], reports: Any, on_report: Progress, on_tick: Callable[[], None]) -> None:

@@ -76,7 +76,12 @@ def setting(results: Results) -> list[tuple[str, str]]:
             f"noise density {1e6 * sensor['noise_density']:g} ug/sqrt(Hz), low-pass {bandwidth}",
         ),
     ]
-    return rows + [(name, str(value)) for name, value in results.run.items() if name != "setup"]
+    return rows + labels(results.run)
+
+
+def labels(run: dict[str, Any]) -> list[tuple[str, str]]:
+    """What else identifies a run."""
+    return [(name, str(value)) for name, value in run.items() if name != "setup"]
 
 
 def _by_amplitude(results: Results) -> list[Row]:

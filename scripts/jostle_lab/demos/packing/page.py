@@ -1,6 +1,7 @@
 """A results folder in, `index.html` out: pictures with captions, numbers, parameters; no network, no server."""
 
 import os
+import shlex
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from datetime import datetime
@@ -102,7 +103,6 @@ def _context(folder: Path, status: Status) -> dict[str, Any]:
     kind = _kind(setup["protocol"])
     results = _results(folder, unfinished=status.name != "finished")
     camera = Camera(setup["camera"]["frame_rate"])
-    commands = _commands(kind)
     pictures = [caption for caption in CAPTIONS if status.name == "finished" and (folder / caption.file).exists()]
     if status.name != "finished" and (now := folder / NOW.file).exists():
         pictures = [NOW._replace(version=f"?{now.stat().st_mtime_ns}")]
@@ -122,12 +122,11 @@ def _context(folder: Path, status: Status) -> dict[str, Any]:
         "frame_interval": f"{1.0 / camera.frame_rate:g}",
         "alias_limit": f"{camera.alias_limit() / RPM:g}",
         "pictures": pictures,
-        "commands": commands,
-        "width": max(len(line) for line, _ in commands),
+        "commands": _commands(kind, folder),
         "links": _links(folder),
         "findings": _findings(results) if results and status.name == "finished" else [],
         **_tables(results, status.name == "finished"),
-        "setting": numbers.setting(results) if results else [(k, str(v)) for k, v in run.items() if k != "setup"],
+        "setting": [*_schedule(setup), *(numbers.setting(results) if results else numbers.labels(run))],
     }
 
 
@@ -167,6 +166,20 @@ def _kind(protocol: dict[str, Any]) -> str:
 def _plain(protocol: Protocol) -> dict[str, Any]:
     """As JSON has it."""
     return {**asdict(protocol), "intervals": [asdict(interval) for interval in protocol.intervals]}
+
+
+def _schedule(setup: dict[str, Any]) -> list[tuple[str, str]]:
+    """How hard and how long."""
+    every = [interval["amplitude"] for interval in setup["protocol"]["intervals"]]
+    listed = ", ".join(f"{amplitude:g}" for amplitude in every)
+    if len(every) > 12:
+        listed = f"{len(every)} from {every[0]:g} to {every[-1]:g}"
+    first = setup["protocol"]["intervals"][0]
+    return [
+        ("amplitudes A", listed),
+        ("time at each", f"{first['relaxation']} s unobserved, then {first['recording']} s recorded"),
+        ("before the first", f"{setup['protocol']['settling']} s at A = 1"),
+    ]
 
 
 def _seconds(setup: dict[str, Any]) -> int:
@@ -215,11 +228,13 @@ def _slopes(results: Results) -> list[str]:
     return sentences
 
 
-def _commands(kind: str) -> Sequence[tuple[str, str]]:
+def _commands(kind: str, folder: Path) -> Sequence[tuple[str, str]]:
     """Lines for a terminal, and what they do."""
     demo = "scripts/demo" if _in_checkout() else "jostle-lab demo"
     same = {"quick": f"{demo} --quick", "standard": demo, "full": f"{demo} --full"}
-    lines = [(same[kind], "this run: does what is left of it, draws it again")] if kind in same else []
+    usual = CHECKOUT / "results" / ("quick" if kind == "quick" else "")
+    place = "" if folder.resolve() == usual else f" --results {shlex.quote(str(folder.resolve()))}"
+    lines = [(f"{same[kind]}{place}", "this run: does what is left of it, draws it again")] if kind in same else []
     lines += [(demo, "two packings, nine amplitudes: a minute or two")] if kind == "quick" else []
     return [
         *lines,

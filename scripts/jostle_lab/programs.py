@@ -27,23 +27,21 @@ def timed(words: Sequence[str | Path], messages: Path, limit: float | None = Non
 
     A command that is stopped kills it, from whatever thread it was started, and `stopping.Stopped` is raised.
     """
-    stopping.check()
     begun = time.perf_counter()
-    with messages.open("wb") as file:
-        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file)
-    timer = threading.Timer(limit, process.kill) if limit else None
-    if timer:
-        timer.start()
-    try:
-        with stopping.calling(process.kill):
-            _, status, usage = os.wait4(process.pid, 0)
-    except BaseException:
-        process.kill()
-        process.wait()
-        raise
-    finally:
+
+    def start() -> subprocess.Popen[bytes]:
+        with messages.open("wb") as file:
+            return subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file)
+
+    with stopping.running(start) as process:
+        timer = threading.Timer(limit, process.kill) if limit else None
         if timer:
-            timer.cancel()
+            timer.start()
+        try:
+            _, status, usage = os.wait4(process.pid, 0)
+        finally:
+            if timer:
+                timer.cancel()
     process.returncode = os.waitstatus_to_exitcode(status)
     stopping.check_ended_by(process.returncode)
     return Ended(process.returncode, usage.ru_utime + usage.ru_stime, time.perf_counter() - begun)

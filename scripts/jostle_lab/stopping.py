@@ -9,10 +9,14 @@ Python (`protocol.workers`), which end by themselves when the process that start
 import os
 import signal
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from subprocess import Popen
 from typing import Any
+
+Program = Popen[bytes]
 
 SIGNALS: dict[int, str] = {
     int(getattr(signal, name)): said
@@ -39,6 +43,8 @@ class _State:
     """Of the signal that has come."""
     since = 0.0
     told = False
+    deferred = False
+    """The main thread starts a program at this moment."""
     on_stop: set[Callable[[], None]] = set()  # noqa: RUF012 - the state of the process
     """What is called at once when a signal comes."""
 
@@ -62,14 +68,30 @@ def check_ended_by(code: int) -> None:
 
 
 @contextmanager
-def calling(end: Callable[[], None]) -> Iterator[None]:
-    """While it is open, a signal calls `end` at once, whatever the main thread waits for."""
-    _State.on_stop.add(end)
+def running(start: Callable[[], Program]) -> Iterator[Program]:
+    """The program that `start` starts, from any thread; a signal kills it at once, and whatever leaves the block early.
+
+    Raises `Stopped` if a signal has come. One that comes while the program starts acts when it can be killed.
+    """
+    check()
+    deferring = threading.current_thread() is threading.main_thread()
+    if deferring:
+        _State.deferred = True
+    try:
+        program = start()
+        _State.on_stop.add(program.kill)
+    finally:
+        if deferring:
+            _State.deferred = False
     try:
         check()
-        yield
+        yield program
+    except BaseException:
+        program.kill()
+        program.wait()
+        raise
     finally:
-        _State.on_stop.discard(end)
+        _State.on_stop.discard(program.kill)
 
 
 @contextmanager
@@ -101,7 +123,9 @@ def _handle(number: int, _frame: Any) -> None:
         _State.number, _State.since = number, time.monotonic()
         for end in list(_State.on_stop):
             end()
-        raise Stopped(number)
+        if not _State.deferred:
+            raise Stopped(number)
+        return
     if time.monotonic() - _State.since > PATIENCE:
         os._exit(128 + number)
 

@@ -21,7 +21,7 @@ from jostle_lab.tables import read_table
 
 PATIENCE = 60.0
 """For what must come, on a machine that does other things too [s]."""
-AMPLITUDES = "0.4,0.35,0.3"
+AMPLITUDES = "0.35,0.3"
 
 
 class Command:
@@ -85,7 +85,7 @@ def test_sigterm_ends_the_demo_and_the_same_command_goes_on(tmp_path: Path, demo
     command.until(there_is(tmp_path, "results/packings/*/checkpoint.npz"))
     said = command.stop(signal.SIGTERM)
     assert "stopped by SIGTERM. " in said and "The same command goes on from there." in said
-    assert "of 6 amplitudes (3 for each of 2 packings) are kept in" in said
+    assert "of 4 amplitudes (2 for each of 2 packings) are kept in" in said
     page = (tmp_path / "results/index.html").read_text()
     assert "ended before it was finished" in page and "refresh" not in page
     before = {file: file.read_bytes() for file in tmp_path.glob("results/packings/*/amplitudes.csv")}
@@ -96,7 +96,7 @@ def test_sigterm_ends_the_demo_and_the_same_command_goes_on(tmp_path: Path, demo
     assert "first picture after" in said and "left" in said
     for file, rows in before.items():
         assert file.read_bytes().startswith(rows)  # they were not computed anew
-        assert len(read_table(file)) == 3
+        assert len(read_table(file)) == 2
     page = (tmp_path / "results/index.html").read_text()
     assert "refresh" not in page and "What came out" in page
     assert not (tmp_path / "results/packing_now.png").exists()
@@ -113,7 +113,7 @@ def test_ctrl_c_in_a_terminal_is_one_message(tmp_path: Path, demo: Callable[...,
 
 
 def test_a_killed_demo_leaves_no_workers_and_no_lock(tmp_path: Path, demo: Callable[..., Command]) -> None:
-    command = demo()
+    command = demo("--packings", "1")
     command.until(there_is(tmp_path, "results/packing_now.png"))
     command.stop(signal.SIGKILL)
     with held(tmp_path / "results", "test"):
@@ -140,7 +140,7 @@ def test_a_full_disk_ends_the_demo_and_loses_nothing(tmp_path: Path, demo: Calla
     assert last.startswith(f"error: {tmp_path / 'results'}"), said
     assert last.endswith("Make room, or name a folder on another disk.")
     (table,) = tmp_path.glob("results/packings/*/amplitudes.csv")
-    assert 0 < len(read_table(table)) < 3
+    assert len(read_table(table)) == 1
     assert list(tmp_path.rglob("*.draft")) == []
 
 
@@ -152,7 +152,15 @@ def test_no_room_to_unpack_an_fmu_is_told_with_the_remedy(demo: Callable[..., Co
 
 
 def has_a_run(command: Command) -> Callable[[], bool]:
-    return lambda: any(process.name() == PROGRAM.name for process in command.descendants())
+    """Not only `jostle describe`, which comes first and is short."""
+
+    def runs(process: psutil.Process) -> bool:
+        try:
+            return process.cmdline()[:2] == [str(PROGRAM), "run"]
+        except (psutil.NoSuchProcess, psutil.ZombieProcess):
+            return False
+
+    return lambda: any(map(runs, command.descendants()))
 
 
 @pytest.mark.parametrize("group", [False, True], ids=["to the sweep", "to all its processes"])

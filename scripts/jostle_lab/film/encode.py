@@ -1,0 +1,125 @@
+"""Pictures in, a file out: MP4 by ffmpeg, GIF and WebP by Pillow. The file appears whole under its name, or not at all."""
+
+import os
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from jostle_lab.errors import LabError, about, describe_os_error
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+Pictures = Iterable[memoryview]
+"""Red, green, blue, opacity; each of shape (height, width, 4), valid until the next one is taken."""
+PALETTE_FROM = 6
+"""Pictures from which the colours of a GIF are chosen."""
+COLOURS = 96
+"""Of a GIF."""
+MOST_IN_MEMORY = 1500
+"""Frames of a GIF or WebP, which is made in memory."""
+QUALITY = 70
+"""Of a WebP."""
+
+
+@contextmanager
+def whole(out: Path) -> Iterator[Path]:
+    """A name beside `out` to write to; at the end it becomes `out`, after an error or Ctrl-C it is gone.
+
+    Raises:
+        LabError: the folder is not there or cannot be written to.
+
+    """
+    folder = out.parent
+    if not folder.is_dir():
+        raise LabError(f"The folder {folder} of {out} is not there. Make it, or name another file.")
+    if out.is_dir():
+        raise LabError(f"{out} is a folder. Name a file.")
+    draft = out.with_name(f"_{out.stem}.draft{out.suffix}")
+    try:
+        draft.touch()
+        yield draft
+        draft.replace(out)
+    except OSError as error:
+        raise LabError(f"{describe_os_error(about(out, error))}") from None
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def writer(ending: str) -> Callable[[Path, Pictures, tuple[int, int], float, int], None]:
+    """What writes a file of this ending from pictures of a size (width, height), frames a second, their number."""
+    return {".mp4": write_mp4, ".gif": write_gif, ".webp": write_webp}[ending]
+
+
+def write_mp4(path: Path, pictures: Pictures, size: tuple[int, int], fps: float, count: int) -> None:
+    """H.264 in 4:2:0, which every browser and player shows."""
+    ffmpeg = _ffmpeg()
+    sink = ffmpeg.write_frames(
+        str(path),
+        size,
+        pix_fmt_in="rgba",
+        pix_fmt_out="yuv420p",
+        fps=fps,
+        codec="libx264",
+        quality=None,
+        macro_block_size=2,
+        output_params=["-crf", "20", "-preset", "veryfast", "-movflags", "+faststart"],
+        ffmpeg_log_level="error",
+    )
+    try:
+        sink.send(None)
+        for picture in pictures:
+            sink.send(picture)
+    except OSError as error:
+        raise LabError(f"ffmpeg stopped while it wrote {path.name}: {error}. Is there room on the disk?") from None
+    finally:
+        sink.close()
+
+
+def write_gif(path: Path, pictures: Pictures, size: tuple[int, int], fps: float, count: int) -> None:
+    """One set of colours for all frames, so that only what moves is stored anew."""
+    frames = list(_images(pictures, size, count))
+    chosen = frames[:: max(len(frames) // PALETTE_FROM, 1)][:PALETTE_FROM]
+    sheet = _pillow().new("RGB", (size[0], size[1] * len(chosen)))
+    for number, frame in enumerate(chosen):
+        sheet.paste(frame, (0, number * size[1]))
+    colours = sheet.quantize(COLOURS)
+    indexed = [frame.quantize(palette=colours, dither=0) for frame in frames]
+    indexed[0].save(path, save_all=True, append_images=indexed[1:], duration=round(1000.0 / fps), loop=0, optimize=False)
+
+
+def write_webp(path: Path, pictures: Pictures, size: tuple[int, int], fps: float, count: int) -> None:
+    """Animated WebP."""
+    frames = list(_images(pictures, size, count))
+    ends = np.rint(1000.0 / fps * np.arange(len(frames) + 1)).astype(int)
+    lasting = np.diff(ends).tolist()
+    frames[0].save(
+        path, save_all=True, append_images=frames[1:], duration=lasting, loop=0, quality=QUALITY, method=4
+    )
+
+
+def _images(pictures: Pictures, size: tuple[int, int], count: int) -> "Iterator[Image]":
+    if count > MOST_IN_MEMORY:
+        raise LabError(
+            f"The film has {count} frames; at most {MOST_IN_MEMORY} fit into a GIF or WebP. Show a part of the run "
+            "(start, end), choose a smaller slow or fps, or write .mp4."
+        )
+    for picture in pictures:
+        yield _pillow().frombuffer("RGBA", size, picture, "raw", "RGBA", 0, 1).convert("RGB")
+
+
+def _ffmpeg() -> "object":
+    try:
+        import imageio_ffmpeg  # noqa: PLC0415
+    except ImportError:
+        raise LabError("imageio-ffmpeg is not installed. Install it: pip install 'jostle-lab[film]'.") from None
+    return imageio_ffmpeg
+
+
+def _pillow() -> "object":
+    from PIL import Image  # noqa: PLC0415
+
+    return Image

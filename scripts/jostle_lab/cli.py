@@ -13,6 +13,7 @@ from jostle_lab.demos.packing.command import demo, draw, exchanges, held_loop, s
 from jostle_lab.demos.ratchet.command import ratchet_demo
 from jostle_lab.demos.torque.command import torque_demo
 from jostle_lab.errors import LabError, describe_os_error
+from jostle_lab.film.command import film
 from jostle_lab.loudspeaker.command import loudspeaker
 from jostle_lab.runs.command import sweep
 from jostle_lab.stopping import stoppable
@@ -93,6 +94,7 @@ def main() -> None:
         ratchet_demo,
         torque_demo,
         loudspeaker,
+        film,
     ]
     # A wheel holds the laboratory alone; the studies, whose records are in the source tree, are beside it there.
     if find_spec("studies"):

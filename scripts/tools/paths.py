@@ -16,6 +16,7 @@ BASE_ON_INPUTS, BASE_ON_INPUTS_PAGE = GENERATED / "base-on-inputs", GENERATED / 
 REAL_TIME, REAL_TIME_PAGE = GENERATED / "real-time", GENERATED / "real-time.md"
 BINARIES, BINARIES_PAGE = GENERATED / "binaries", GENERATED / "binaries.md"
 INSTRUCTION_COUNTS = GENERATED / "instruction_counts"
+README_FILM = ROOT / "docs" / "packing.webp"
 README_PICTURE = ROOT / "docs" / "packing.png"
 MODEL_DESCRIPTIONS = ROOT / "modelDescription"
 NOTICES = ROOT / "LICENSE-THIRD-PARTY.txt"

@@ -18,6 +18,8 @@ SHADES = 33
 """Of a colour map: few, so that GIF files are small; odd, so that there is one in the middle."""
 TYPICAL = 0.98
 """Share of the values that the range of colours holds."""
+ROUNDING = 1e-12
+"""Values up to this [SI units] are rounding: their range of colours is that of 1."""
 PLAIN = "#e3d9c6"
 """Of disks that show nothing."""
 # Light enough at every value that a dark marking and black lines are seen on it.
@@ -34,7 +36,7 @@ class Colouring:
     palette: Numbers
     """Red, green, blue in [0, 1], shape (colours, 3)."""
     label: str
-    """With the unit; empty if nothing is shown."""
+    """Two lines, the first with the unit; empty if nothing is shown."""
     low: float
     high: float
     """Values of the first and the last colour."""
@@ -65,12 +67,12 @@ def colouring(recording: Recording, pace: Pace, colour: str, forces: Forces | No
         high = _round_up(float(np.quantile(np.abs(values), TYPICAL)))
         return _scaled(values, SPIN, label, -high, high)
     if colour == "speed":
-        values, label = _speed(recording, pace), "speed of the disk [m/s]"
+        values, label = _speed(recording, pace), "speed [m/s]\nof the centre"
     else:
         if forces is None:
             raise LabError(f"colour = 'force' is not possible: {why_not} Choose spin, speed or none.")
-        values = np.array([forces.on_disks(int(at)) for at in pace.earlier])
-        label = "sum of normal forces [N]"
+        values = np.array([forces.on_disks(frame) for frame in range(pace.frames)])
+        label = "force [N]\nsum of normal forces"
     return _scaled(values, AMOUNT, label, 0.0, _round_up(float(np.quantile(values, TYPICAL))))
 
 
@@ -85,8 +87,8 @@ def _rgb(colours: Colormap, count: int) -> Numbers:
 
 
 def _round_up(value: float) -> float:
-    """To 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten; 1 for 0."""
-    if value <= 0.0:
+    """To 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten; 1 for nothing but rounding."""
+    if value <= ROUNDING:
         return 1.0
     power = 10.0 ** math.floor(math.log10(value))
     return next(digit * power for digit in (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0) if digit * power >= value)
@@ -100,14 +102,16 @@ def _spin(recording: Recording, pace: Pace) -> tuple[Numbers, str]:
     """
     period, time = recording.period(), recording.time
     if period is None:
-        return np.array([pace.between(_recorded(recording), k) for k in range(pace.frames)]), "spin [rad/s]"
+        return np.array(
+            [pace.between(_recorded(recording), k) for k in range(pace.frames)]
+        ), "spin [rad/s]\nat the moment"
     window = max(period, recording.interval)
     if window >= time[-1] - time[0]:
         window = float(time[-1] - time[0])
     begin = np.clip(pace.times - 0.5 * window, time[0], time[-1] - window)
     turned = _at(recording, begin + window) - _at(recording, begin)
     over = "a period" if math.isclose(window, period) else f"{1e3 * window:.3g} ms"
-    return turned / window, f"spin, mean over {over} [rad/s]"
+    return turned / window, f"spin [rad/s]\nmean over {over}"
 
 
 def _at(recording: Recording, times: Numbers) -> Numbers:

@@ -1,10 +1,9 @@
-"""Pictures in, a file out: MP4 by ffmpeg, GIF and WebP by Pillow. The file appears whole under its name, or not at all."""
+"""Pictures in, a file out: MP4 by ffmpeg, GIF and WebP by Pillow. The file is whole under its name, or not there."""
 
-import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,7 +16,7 @@ Pictures = Iterable[memoryview]
 """Red, green, blue, opacity; each of shape (height, width, 4), valid until the next one is taken."""
 PALETTE_FROM = 6
 """Pictures from which the colours of a GIF are chosen."""
-COLOURS = 96
+COLOURS = 32
 """Of a GIF."""
 MOST_IN_MEMORY = 1500
 """Frames of a GIF or WebP, which is made in memory."""
@@ -44,17 +43,14 @@ def whole(out: Path) -> Iterator[Path]:
         yield draft
         draft.replace(out)
     except OSError as error:
-        raise LabError(f"{describe_os_error(about(out, error))}") from None
+        if error.filename not in (None, str(draft), str(out)):
+            raise
+        raise LabError(describe_os_error(about(out, error))) from None
     finally:
         draft.unlink(missing_ok=True)
 
 
-def writer(ending: str) -> Callable[[Path, Pictures, tuple[int, int], float, int], None]:
-    """What writes a file of this ending from pictures of a size (width, height), frames a second, their number."""
-    return {".mp4": write_mp4, ".gif": write_gif, ".webp": write_webp}[ending]
-
-
-def write_mp4(path: Path, pictures: Pictures, size: tuple[int, int], fps: float, count: int) -> None:
+def write_mp4(path: Path, pictures: Pictures, size: tuple[int, int], fps: float) -> None:
     """H.264 in 4:2:0, which every browser and player shows."""
     ffmpeg = _ffmpeg()
     sink = ffmpeg.write_frames(
@@ -79,39 +75,41 @@ def write_mp4(path: Path, pictures: Pictures, size: tuple[int, int], fps: float,
         sink.close()
 
 
-def write_gif(path: Path, pictures: Pictures, size: tuple[int, int], fps: float, count: int) -> None:
+def write_gif(path: Path, frames: "list[Image]", fps: float) -> None:
     """One set of colours for all frames, so that only what moves is stored anew."""
-    frames = list(_images(pictures, size, count))
     chosen = frames[:: max(len(frames) // PALETTE_FROM, 1)][:PALETTE_FROM]
-    sheet = _pillow().new("RGB", (size[0], size[1] * len(chosen)))
+    width, height = frames[0].size
+    sheet = _pillow().new("RGB", (width, height * len(chosen)))
     for number, frame in enumerate(chosen):
-        sheet.paste(frame, (0, number * size[1]))
+        sheet.paste(frame, (0, number * height))
     colours = sheet.quantize(COLOURS)
-    indexed = [frame.quantize(palette=colours, dither=0) for frame in frames]
-    indexed[0].save(path, save_all=True, append_images=indexed[1:], duration=round(1000.0 / fps), loop=0, optimize=False)
-
-
-def write_webp(path: Path, pictures: Pictures, size: tuple[int, int], fps: float, count: int) -> None:
-    """Animated WebP."""
-    frames = list(_images(pictures, size, count))
-    ends = np.rint(1000.0 / fps * np.arange(len(frames) + 1)).astype(int)
-    lasting = np.diff(ends).tolist()
-    frames[0].save(
-        path, save_all=True, append_images=frames[1:], duration=lasting, loop=0, quality=QUALITY, method=4
+    indexed = [frame.quantize(palette=colours, dither=_pillow().Dither.NONE) for frame in frames]
+    indexed[0].save(
+        path, save_all=True, append_images=indexed[1:], duration=round(1000.0 / fps), loop=0, optimize=False
     )
 
 
-def _images(pictures: Pictures, size: tuple[int, int], count: int) -> "Iterator[Image]":
+def write_webp(path: Path, frames: "list[Image]", fps: float, quality: int = QUALITY) -> None:
+    """Animated WebP."""
+    ends = np.rint(1000.0 / fps * np.arange(len(frames) + 1)).astype(int)
+    lasting = np.diff(ends).tolist()
+    # Each frame is whole: of a frame kept as a change of the last one, squares of that stay behind.
+    frames[0].save(
+        path, save_all=True, append_images=frames[1:], duration=lasting, loop=0, quality=quality, method=4, kmax=1
+    )
+
+
+def images(pictures: Pictures, size: tuple[int, int], count: int) -> "list[Image]":
+    """Copies of all of them, without opacity; refused are more than fit into memory."""
     if count > MOST_IN_MEMORY:
         raise LabError(
             f"The film has {count} frames; at most {MOST_IN_MEMORY} fit into a GIF or WebP. Show a part of the run "
             "(start, end), choose a smaller slow or fps, or write .mp4."
         )
-    for picture in pictures:
-        yield _pillow().frombuffer("RGBA", size, picture, "raw", "RGBA", 0, 1).convert("RGB")
+    return [_pillow().frombuffer("RGBA", size, p, "raw", "RGBA", 0, 1).convert("RGB") for p in pictures]
 
 
-def _ffmpeg() -> "object":
+def _ffmpeg() -> Any:
     try:
         import imageio_ffmpeg  # noqa: PLC0415
     except ImportError:
@@ -119,7 +117,7 @@ def _ffmpeg() -> "object":
     return imageio_ffmpeg
 
 
-def _pillow() -> "object":
+def _pillow() -> Any:
     from PIL import Image  # noqa: PLC0415
 
     return Image

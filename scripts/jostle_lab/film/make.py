@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
 from tqdm import tqdm
 
 from jostle_lab.errors import LabError, require
@@ -24,7 +23,9 @@ if TYPE_CHECKING:
 ENDINGS = (".mp4", ".gif", ".webp", ".html")
 """Of films."""
 SMALL = (".gif", ".webp")
-"""Endings for pages and mails: half the size, fewer frames."""
+"""Endings for pages and mails, of less height."""
+RATES = {".mp4": 30.0, ".html": 30.0, ".webp": 25.0, ".gif": 12.5}
+"""Frames a second; a GIF keeps whole frames, so that few of them make it small."""
 
 
 class FilmWarning(UserWarning):
@@ -57,7 +58,7 @@ def film(
         start: simulated time of the first frame [s]; None: the first sample.
         end: simulated time of the last frame [s]; None: the last sample.
         height: of the film [pixels], 160 to 2160. None: 720; GIF and WebP 480.
-        fps: frames a second, 1 to 60. None: 30; GIF and WebP 25.
+        fps: frames a second, 1 to 60. None: 30; WebP 25, GIF 12.5.
         progress: show a bar; None: in a terminal.
 
     Returns:
@@ -71,11 +72,19 @@ def film(
 
     """
     path = Path(out)
-    _check(path, colour, height, fps)
+    check(path, colour, height, fps)
     with encode.whole(path) as draft:
         script = write_script(
-            data, path.suffix.lower(), colour=colour, contacts=contacts, slow=slow, start=start, end=end,
-            height=height, fps=fps, progress=progress,
+            data,
+            path.suffix.lower(),
+            colour=colour,
+            contacts=contacts,
+            slow=slow,
+            start=start,
+            end=end,
+            height=height,
+            fps=fps,
+            progress=progress,
         )
         write(script, draft, progress)
     return path
@@ -96,10 +105,9 @@ def write_script(
     make: Callable[[Recording], Replayable] | None = None,
 ) -> Script:
     """Decide what is in each frame; the arguments are those of `film`."""
-    small = ending in SMALL
-    height = height or (480 if small else 720)
+    height = height or (480 if ending in SMALL else 720)
     run = _recorded(data)
-    chosen = pace.pace(run, slow, start, end, fps or (25.0 if small else 30.0))
+    chosen = pace.pace(run, slow, start, end, fps or RATES[ending])
     if told := pace.warning(run):
         warnings.warn(told, FilmWarning, stacklevel=3)
     found, why_not = _forces(run, chosen, contacts, colour, progress, make)
@@ -109,18 +117,24 @@ def write_script(
     return Script(run, chosen, seen, lay_out(seen, height), coloured, found if contacts is not False else None, why_not)
 
 
-def write(script: Script, path: Path, progress: bool | None = None) -> None:
-    """Draw a script and write it, to a file whose ending is the kind."""
+def write(script: Script, path: Path, progress: bool | None = None, quality: int = encode.QUALITY) -> None:
+    """Draw a script and write it, to a file whose ending is the kind; `quality` from 0 to 100 is that of a WebP."""
     count, size = script.pace.frames, (script.layout.width, script.layout.height)
     if path.suffix.lower() == ".html":
-        player.write_page(script, path, _bar(range(count), count, "frames", progress))
+        player.write_page(script, path, _bar(range(count), "frames", progress))
         return
     stage = Stage(script)
-    pictures = (stage.draw(script.frame(number)) for number in _bar(range(count), count, "frames", progress))
-    encode.writer(path.suffix.lower())(path, pictures, size, script.pace.fps, count)
+    pictures = (stage.draw(script.frame(number)) for number in _bar(range(count), "frames", progress))
+    if path.suffix.lower() == ".mp4":
+        encode.write_mp4(path, pictures, size, script.pace.fps)
+    elif path.suffix.lower() == ".gif":
+        encode.write_gif(path, encode.images(pictures, size, count), script.pace.fps)
+    else:
+        encode.write_webp(path, encode.images(pictures, size, count), script.pace.fps, quality)
 
 
-def _check(path: Path, colour: str, height: int | None, fps: float | None) -> None:
+def check(path: Path, colour: str, height: int | None, fps: float | None) -> None:
+    """Refuse, before anything is computed, what no film can be made of."""
     if path.suffix.lower() not in ENDINGS:
         raise LabError(f"{path} ends with {path.suffix!r}, which is not allowed: one of {', '.join(ENDINGS)}.")
     colours.check(colour)
@@ -159,9 +173,8 @@ def _forces(
 ) -> tuple[Forces | None, str]:
     if contacts is False and colour != "force":
         return None, "they were not asked for."
-    samples = np.unique(chosen.earlier)
     try:
-        return forces.find(run, _bar(samples.tolist(), len(samples), "forces", progress), make), ""
+        return forces.find(run, chosen, make, lambda samples: _bar(samples, "forces", progress)), ""
     except NoForcesError as reason:
         said = str(reason)
     if contacts:
@@ -171,6 +184,6 @@ def _forces(
     return None, said
 
 
-def _bar(steps: "range | list[int]", count: int, label: str, progress: bool | None) -> Iterator[int]:
+def _bar(steps: range, label: str, progress: bool | None) -> Iterator[int]:
     hidden = not sys.stderr.isatty() if progress is None else not progress
-    return iter(tqdm(steps, total=count, desc=label, disable=hidden, leave=False))
+    return iter(tqdm(steps, desc=label, disable=hidden, leave=False))

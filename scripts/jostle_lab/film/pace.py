@@ -18,8 +18,8 @@ FEWEST_SAMPLES = 8
 """Of a period, with which its motion is resolved."""
 PERIOD_SHOWN = 0.6
 """Time that a period of the drive takes in the film unless told [s]."""
-FEWEST_FRAMES = 8
-"""Of a period, in a film whose slow motion we choose."""
+FRAMES_SHOWN, FEWEST_FRAMES = 12, 8
+"""Of a period, at least, in a film whose slow motion we choose; the fewer in long runs."""
 LENGTH = 60.0
 """Longest film that we choose [s]."""
 WITHOUT_PERIOD = 10.0
@@ -52,6 +52,12 @@ class Pace:
     def frames(self) -> int:
         """Number of frames."""
         return len(self.times)
+
+    def exposures(self, samples: int) -> NDArray[np.intp]:
+        """First sample of each frame, and the one after its last, of a run of `samples`, shape (frames, 2)."""
+        stride = max(int(self.earlier[-1] - self.earlier[-2]), 1)
+        after = np.append(self.earlier[1:], min(int(self.earlier[-1]) + stride, samples))
+        return np.column_stack((self.earlier, np.maximum(after, self.earlier + 1)))
 
     def between(self, values: Numbers, frame: int, together: bool = False) -> Numbers:
         """Values of shape (samples, disks) at a frame; with `together` those of shape (samples, ...) of the base."""
@@ -147,7 +153,7 @@ def chosen(recording: Recording, span: float, fps: float) -> float:
         return max(down_to_nice(1.0 / (fps * recording.interval)), 1.0)
     if period is None or recording.base_is_at_rest():
         return max(down_to_nice(WITHOUT_PERIOD / span), 1.0)
-    wanted = PERIOD_SHOWN / period
+    wanted = max(PERIOD_SHOWN, FRAMES_SHOWN / fps) / period
     if wanted * span > LENGTH:
         wanted = max(LENGTH / span, FEWEST_FRAMES / (fps * period))
     return max(down_to_nice(wanted), 1.0)

@@ -5,9 +5,8 @@ missing, not a number, or out of order is refused by its name.
 """
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -114,7 +113,8 @@ def record(data: "xr.Dataset", origin: str = "the dataset") -> Recording:
     """What a film needs of a dataset.
 
     Args:
-        data: as `jostle.Simulation.run` returns it; `origin` says in messages where it comes from.
+        data: as `jostle.Simulation.run` returns it.
+        origin: what messages call it.
 
     Raises:
         LabError: something is missing, empty, not a number, or out of order.

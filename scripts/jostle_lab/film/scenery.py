@@ -1,8 +1,8 @@
 """Solid things of a scene, from its parameters: walls, teeth, supports, how they move, and what part is looked at.
 
-The shapes are those of the engines (docs/physics.md): the box of a packing is centred, its floor at y = 0 while the base
-is at rest; teeth begin at multiples of their width; the vertex of a wedge is the origin; the disk on two supports starts
-where it just touches both.
+The shapes are those of the engines (docs/physics.md): the box of a packing is centred, its floor at y = 0 while the
+base is at rest; teeth begin at multiples of their width; the vertex of a wedge is the origin; the disk on two supports
+is at the origin where it just touches both.
 """
 
 import math
@@ -73,7 +73,8 @@ def _lift(recording: Recording) -> Numbers:
     """Displacement of the base, shape (samples, 2)."""
     if recording.base is None:
         raise LabError(
-            f"base.position was not recorded, but {recording.scene} cannot be drawn without it. Record it, or all outputs."
+            f"base.position was not recorded, but {recording.scene} cannot be drawn without it. "
+            "Record it, or all outputs."
         )
     return np.column_stack((np.zeros_like(recording.base), recording.base))
 
@@ -159,9 +160,13 @@ def _wedge(recording: Recording, shown: slice) -> Scenery:
         float(y.max()) + 1.5 * radius,
     )
     long, thick = 2.0 * (view.width + view.height), 0.3 * radius
-    walls = [np.array([[0, 0], long * u, long * u - thick * n, -thick * n]) for u, n in zip(up, normals, strict=True)]
-    joint = np.array([[0, 0], -thick * normals[0], -thick * normals[1]])
-    return Scenery(tuple(Solid(outline, lift) for outline in (*walls, joint)), view)
+    # Outer surfaces are parallel to the inner ones and meet below the vertex.
+    corner = -thick * normals.sum(axis=0) / (1.0 + float(normals[0] @ normals[1]))
+    ends = long * up
+    outline = np.array(
+        [ends[0], [0.0, 0.0], ends[1], ends[1] - thick * normals[1], corner, ends[0] - thick * normals[0]]
+    )
+    return Scenery((Solid(outline, lift),), view)
 
 
 def _supports(recording: Recording, shown: slice) -> Scenery:
@@ -181,9 +186,7 @@ def _supports(recording: Recording, shown: slice) -> Scenery:
     wide = 2.0 if recording.option("support.shape") == "disks" else 1.6
     low = -wide * radius * float(normals[:, 1].max()) + (-0.4 * radius if wide == 2.0 else 0.2 * radius)
     x, y = recording.x[shown], recording.y[shown]
-    view = View(
-        float(x.min()) - wide * radius, float(x.max()) + wide * radius, low, float(y.max()) + 1.2 * radius
-    )
+    view = View(float(x.min()) - wide * radius, float(x.max()) + wide * radius, low, float(y.max()) + 1.2 * radius)
     return Scenery(tuple(solids), view)
 
 

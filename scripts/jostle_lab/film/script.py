@@ -1,4 +1,4 @@
-"""What is in each frame, in pixels: whoever draws needs no physics. x to the right, y up, from the lower left corner."""
+"""What is in each frame, in pixels: who draws needs no physics. x to the right, y up, from the lower left corner."""
 
 import math
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ NARROWEST, WIDEST = 0.6, 1.8
 """Width of the panel over its height."""
 SIDE = 0.32
 """Width of the column at the right over the height of the film."""
-HEAD = 0.135
+HEAD = 0.12
 """Height of the title over that of the film."""
 MARGIN = 0.02
 THICKEST = 0.55
@@ -146,10 +146,10 @@ class Script:
 
     def _lines(self, number: int, centres: Numbers) -> tuple[Numbers, Numbers]:
         """From centre to centre, or from a centre to the wall, and their widths."""
-        typical = self.forces.typical() if self.forces else 0.0
+        typical = self.forces.typical if self.forces else 0.0
         if self.forces is None or typical == 0.0:
             return np.empty((0, 2, 2)), np.empty(0)
-        contacts = self.forces.at[int(self.pace.earlier[number])]
+        contacts = self.forces.frames[number]
         points, ends = self.layout.pixels(contacts.points), []
         for side in (0, 1):
             disk = contacts.disks[:, side]

@@ -1,6 +1,7 @@
 """Where a film's data come from: a file of a run, or a run done now."""
 
 import json
+import math
 import re
 import warnings
 from collections.abc import Mapping
@@ -20,6 +21,8 @@ ENDINGS = (".nc", ".csv", ".parquet")
 """Of files that hold a run."""
 ELEMENT = re.compile(r"^(?P<before>[^\[]+)\[(?P<number>\d+)\](?P<after>.*)$")
 """`disk.angle[3]`, `contact[1].overlap`."""
+PERIODS, SAMPLES, WITHOUT_PERIOD = 10, 32, 2.0
+"""Of a scene that is run now: periods, samples of a period, seconds without a period."""
 
 
 def is_file(run: str) -> bool:
@@ -134,8 +137,8 @@ def _number(value: Any) -> Any:
 
 def run_scene(
     scene: str,
-    seconds: float,
-    every: float,
+    seconds: float | None,
+    every: float | None,
     start: float,
     engine: str | None,
     drive: str | None,
@@ -143,6 +146,8 @@ def run_scene(
     values: Mapping[str, float],
 ) -> "xr.Dataset":
     """Run a scene in this process from time 0; samples begin at `start` [s] and go on for `seconds`.
+
+    None: `seconds` are ten periods of the drive, or 2 s without one; `every` is a 32nd of the period, or of 0.1 s.
 
     Raises:
         LabError: what the package refuses, in its words.
@@ -160,10 +165,20 @@ def run_scene(
                 )
             if start > 0.0:
                 simulation.advance_to(start)
-            found: xr.Dataset = simulation.run(seconds, every=every)
+            period = _period(simulation)
+            span = seconds if seconds is not None else (PERIODS * period if period else WITHOUT_PERIOD)
+            found: xr.Dataset = simulation.run(span, every=every if every is not None else (period or 0.1) / SAMPLES)
         except jostle.JostleError as error:
             raise LabError(str(error)) from None
     return found
+
+
+def _period(simulation: Any) -> float | None:
+    """Of the drive [s], None if it has none."""
+    for name, turn in (("drive.frequency", 1.0), ("torque.angular_frequency", math.tau)):
+        if name in simulation and simulation[name] > 0.0:
+            return turn / float(simulation[name])
+    return None
 
 
 def package() -> Any:

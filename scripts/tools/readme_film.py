@@ -26,11 +26,11 @@ START, PERIODS, SAMPLES = 1.0, 4, 256
 SLOW, FPS, HEIGHT, QUALITY = 9.0, 14.0, 376, 45
 
 
-def recorded(periods: float = PERIODS) -> "xr.Dataset":
+def recorded() -> "xr.Dataset":
     """The run that is shown."""
     simulation = package().Simulation("packing", **{"drive.frequency": FREQUENCY, "drive.amplitude": AMPLITUDE})
     simulation.advance_to(START)
-    found: xr.Dataset = simulation.run(periods / FREQUENCY, every=1.0 / (SAMPLES * FREQUENCY))
+    found: xr.Dataset = simulation.run(PERIODS / FREQUENCY, every=1.0 / (SAMPLES * FREQUENCY))
     return found
 
 

@@ -91,7 +91,11 @@ def _round_up(value: float) -> float:
     if value <= ROUNDING:
         return 1.0
     power = 10.0 ** math.floor(math.log10(value))
-    return next(digit * power for digit in (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0) if digit * power >= value)
+    return next(
+        digit * power
+        for digit in (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+        if digit * power >= value * (1.0 - 1e-9)
+    )
 
 
 def _spin(recording: Recording, pace: Pace) -> tuple[Numbers, str]:

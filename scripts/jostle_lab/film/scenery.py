@@ -14,7 +14,7 @@ import numpy as np
 from jostle_lab.errors import LabError
 from jostle_lab.film.recording import Numbers, Recording
 
-ARC_POINTS = 13
+ARC_POINTS = 25
 """Of the rounded tip of a tooth."""
 
 

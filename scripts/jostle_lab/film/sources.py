@@ -1,6 +1,5 @@
 """Where a film's data come from: a file of a run, or a run done now."""
 
-import json
 import math
 import re
 import warnings
@@ -80,16 +79,12 @@ def _read_table(path: Path, ending: str) -> "xr.Dataset":
 
 
 def _metadata(path: Path) -> dict[str, Any]:
-    """Parameters in the metadata of a Parquet file: each under its name, or all as an object of JSON."""
+    """Parameters in the metadata of a Parquet file, each under its name, numbers as texts."""
     found: dict[str, Any] = {}
     for name, value in pl.read_parquet_metadata(path).items():
-        if name == "ARROW:schema":
-            continue
-        try:
-            parsed = json.loads(value)
-        except ValueError:
-            parsed = value
-        found |= parsed if isinstance(parsed, dict) else {name: parsed}
+        if "/" in name or name == "ARROW:schema":
+            continue  # units and descriptions
+        found[name] = value
     return found
 
 
@@ -112,15 +107,15 @@ def dataset_of(frame: pl.DataFrame, parameters: Mapping[str, Any]) -> "xr.Datase
 
 
 def _grouped(names: list[str]) -> tuple[list[str], dict[str, list[str]]]:
-    """Single names, and those of elements under the name of their array; not where a single one has that name."""
-    single, arrays = [], dict[str, list[str]]()
+    """Single names, and those of elements by their numbers under the name of their array."""
+    single, arrays = [], dict[str, dict[int, str]]()
     for name in names:
         match = ELEMENT.match(name)
         if match is None:
             single.append(name)
         else:
-            arrays.setdefault(match["before"] + match["after"], []).append(name)
-    return single, arrays
+            arrays.setdefault(match["before"] + match["after"], {})[int(match["number"])] = name
+    return single, {array: [names[number] for number in sorted(names)] for array, names in arrays.items()}
 
 
 def _number(value: Any) -> Any:

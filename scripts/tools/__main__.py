@@ -11,6 +11,7 @@ COMMANDS = (
     "tools.release.command:binaries",
     "tools.release.command:verify",
     "tools.notices:notices",
+    "tools.film_frames:film_frames",
     "tools.readme_film:readme_film",
     "tools.readme_picture:readme_picture",
     "tools.notebooks:notebooks",

@@ -178,6 +178,14 @@ def test_runs_of_the_command_line_become_arrays():
     assert force and float(force[1]) == pytest.approx(-WEIGHT, rel=0.05), seen
 
 
+def test_films_of_a_dataset_a_file_and_a_scene_are_made(tmp_path: Path):
+    python(snippet("docs/film.md", "python", "film"), tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["packing.mp4"]
+    shell(snippet("docs/film.md", "sh", "film"))
+    assert (BUILD / "film.gif").read_bytes().startswith(b"GIF89a")
+    assert (BUILD / "film.html").read_text().startswith("<!doctype html>")
+
+
 def test_sweep_writes_parquet_that_pandas_reads():
     run("rm", "-rf", str(BUILD / "sweep"))
     shell(snippet(PHYSICIST, "sh", "sweep"))

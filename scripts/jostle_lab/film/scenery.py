@@ -178,10 +178,10 @@ def _supports(recording: Recording, shown: slice) -> Scenery:
             turn = np.linspace(0.0, math.tau, 121)[:-1]
             outline = -2.0 * radius * normal + radius * np.column_stack((np.cos(turn), np.sin(turn)))
         else:
-            # Both walls end where they meet, or they would cross.
-            below, foot, thick = radius * math.tan(half), -radius * normal, 0.2 * radius
-            ends = (foot - min(below, radius) * along, foot + 1.5 * radius * along)
-            outline = np.array([ends[0], ends[1], ends[1] - thick * normal, ends[0] - thick * normal])
+            # Inner and outer surfaces of both walls meet in corners below the disk.
+            corner, thick = -normals.sum(axis=0) / (1.0 + float(normals[0] @ normals[1])), 0.2 * radius
+            end = -radius * normal + 1.5 * radius * along
+            outline = np.array([radius * corner, end, end - thick * normal, (radius + thick) * corner])
         solids.append(Solid(outline, support_motion(recording, index)))
     wide = 2.0 if recording.option("support.shape") == "disks" else 1.6
     low = -wide * radius * float(normals[:, 1].max()) + (-0.4 * radius if wide == 2.0 else 0.2 * radius)

@@ -12,7 +12,7 @@ from jostle_lab.film.pace import Pace
 from jostle_lab.film.recording import Numbers, Recording
 from jostle_lab.film.scenery import Scenery
 
-NARROWEST, WIDEST = 0.6, 1.8
+NARROWEST, WIDEST = 0.85, 1.8
 """Width of the panel over its height."""
 SIDE = 0.32
 """Width of the column at the right over the height of the film."""
@@ -85,9 +85,8 @@ def lay_out(scenery: Scenery, height: int) -> Layout:
     scale = min(room / view.height, aspect * room / view.width)
     across = round(aspect * room)
     width = 2 * math.ceil(0.5 * (across + 2.0 * margin + SIDE * height))
-    panel = Rectangle(margin, margin, across, room)
-    if scenery.cell is not None:  # a periodic cell ends where it ends
-        panel = Rectangle(margin + 0.5 * (across - scale * view.width), margin, scale * view.width, room)
+    shown = scale * view.width
+    panel = Rectangle(margin + 0.5 * (across - shown), margin, shown, room)
     left = panel.left + 0.5 * panel.width - scale * 0.5 * (view.left + view.right)
     side = Rectangle(margin + across + margin, margin, width - across - 3.0 * margin, room)
     return Layout(width, height, panel, side, scale, (left, panel.bottom - scale * view.bottom))

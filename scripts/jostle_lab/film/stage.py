@@ -115,7 +115,7 @@ class Stage:
         text: Any
         for text in (heading, below):
             wide = text.get_window_extent(self._canvas.get_renderer()).width
-            text.set_fontsize(text.get_fontsize() * min(1.0, room / wide) if wide > 0.0 else text.get_fontsize())
+            text.set_fontsize(text.get_fontsize() * min(1.0, 0.97 * room / wide) if wide > 0.0 else text.get_fontsize())
 
     def _clip(self) -> Bbox:
         panel = self.script.layout.panel
@@ -155,7 +155,8 @@ class Stage:
         if script.forces is not None and script.forces.typical > 0.0:
             top = self._key(side, top)
         self._dial(side)
-        self._text(side.left, side.bottom + 6.2 * self.letter, words.slowness(script.pace, script.recording), va="top")
+        said = words.slowness(script.pace, script.recording)
+        self._text(side.left, side.bottom + 5.2 * self.letter, said, va="bottom")
         self._scale_bar(side)
 
     def _colour_bar(self, side: Rectangle, top: float) -> float:
@@ -188,13 +189,13 @@ class Stage:
         if script.forces.window > 0.0:
             said = f"mean over {1e3 * script.forces.window:.2g} ms"
             self._text(side.left, y - 0.8 * letter, said, va="top")
-        return top - 3.4 * letter
+        return top - 3.2 * letter
 
     def _dial(self, side: Rectangle) -> None:
         """A circle whose hand is at the phase of the drive, or a strip for a base without one."""
         first, letter = self.script.frame(0), self.letter
         radius = 0.075 * self.script.layout.height
-        self._middle = np.array([side.left + radius, side.bottom + 8.2 * letter + radius])
+        self._middle = np.array([side.left + radius, side.bottom + 8.6 * letter + radius])
         self._reach = radius
         x, y = self._middle
         if first.hand is None and first.lift is None:

@@ -50,7 +50,7 @@ def slowness(pace: Pace, recording: Recording) -> str:
     said = f"{factor:.4g} × slower" if factor > 1.0 else f"{1.0 / factor:.4g} × faster" if factor < 1.0 else "real time"
     period = recording.period()
     if pace.stroboscopic and period is not None:
-        said += f"\nsampled {period / recording.interval:.2g} × a period"
+        said += f"\n{period / recording.interval:.2g} samples / period"
     return said
 
 

@@ -19,7 +19,7 @@ from jostle_lab.film.stage import Stage
 
 def film_of_a_run(folder: Path) -> None:
     sim = jostle.Simulation("packing", disks=10, **{"drive.amplitude": 4e-4})
-    data = sim.run(0.05, every=5e-4)
+    data = sim.run(0.02, every=5e-4)
     film(data, folder / "packing.mp4", colour="spin")
 
 
@@ -27,7 +27,7 @@ def test_a_user_needs_at_most_ten_lines(tmp_path: Path) -> None:
     film_of_a_run(tmp_path)
     assert len(inspect.getsource(film_of_a_run).splitlines()) - 1 <= 8  # and two imports
     frames = decoded(tmp_path / "packing.mp4")
-    assert len(frames) == 0.05 * 40 * 30 + 1  # 80 Hz: 40 times slower than real, 30 frames a second
+    assert len(frames) == 0.02 * 40 * 30 + 1  # 80 Hz: 40 times slower than real, 30 frames a second
     assert list(tmp_path.iterdir()) == [tmp_path / "packing.mp4"]
 
 

@@ -24,27 +24,38 @@ QUALITY = 70
 """Of a WebP."""
 
 
-@contextmanager
-def whole(out: Path) -> Iterator[Path]:
-    """A name beside `out` to write to; at the end it becomes `out`, after an error or Ctrl-C it is gone.
-
-    Raises:
-        LabError: the folder is not there or cannot be written to.
-
-    """
+def check_place(out: Path) -> None:
+    """Raise LabError unless the file can be written, before anything is computed."""
     folder = out.parent
     if not folder.is_dir():
         raise LabError(f"The folder {folder} of {out} is not there. Make it, or name another file.")
     if out.is_dir():
         raise LabError(f"{out} is a folder. Name a file.")
-    draft = out.with_name(f"_{out.stem}.draft{out.suffix}")
+    draft = _draft(out)
     try:
         draft.touch()
+        draft.unlink()
+    except OSError as error:
+        raise LabError(describe_os_error(about(out, error))) from None
+
+
+def _draft(out: Path) -> Path:
+    return out.with_name(f"_{out.stem}.draft{out.suffix}")
+
+
+@contextmanager
+def whole(out: Path) -> Iterator[Path]:
+    """A name beside `out` to write to; at the end it becomes `out`, after an error or Ctrl-C it is gone.
+
+    Raises:
+        LabError: it cannot be written.
+
+    """
+    draft = _draft(out)
+    try:
         yield draft
         draft.replace(out)
     except OSError as error:
-        if error.filename not in (None, str(draft), str(out)):
-            raise
         raise LabError(describe_os_error(about(out, error))) from None
     finally:
         draft.unlink(missing_ok=True)

@@ -73,19 +73,19 @@ def film(
     """
     path = Path(out)
     check(path, colour, height, fps)
+    script = write_script(
+        data,
+        path.suffix.lower(),
+        colour=colour,
+        contacts=contacts,
+        slow=slow,
+        start=start,
+        end=end,
+        height=height,
+        fps=fps,
+        progress=progress,
+    )
     with encode.whole(path) as draft:
-        script = write_script(
-            data,
-            path.suffix.lower(),
-            colour=colour,
-            contacts=contacts,
-            slow=slow,
-            start=start,
-            end=end,
-            height=height,
-            fps=fps,
-            progress=progress,
-        )
         write(script, draft, progress)
     return path
 
@@ -137,6 +137,7 @@ def check(path: Path, colour: str, height: int | None, fps: float | None) -> Non
     """Refuse, before anything is computed, what no film can be made of."""
     if path.suffix.lower() not in ENDINGS:
         raise LabError(f"{path} ends with {path.suffix!r}, which is not allowed: one of {', '.join(ENDINGS)}.")
+    encode.check_place(path)
     colours.check(colour)
     if height is not None:
         require("height [pixels]", height, 160, 2160, "A film has 480 to 1080.")

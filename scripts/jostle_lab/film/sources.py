@@ -26,7 +26,7 @@ PERIODS, SAMPLES, WITHOUT_PERIOD = 10, 32, 2.0
 
 def is_file(run: str) -> bool:
     """Whether RUN names a file rather than a scene."""
-    return Path(run).suffix.lower() in ENDINGS or Path(run).is_file()
+    return Path(run).suffix != "" or Path(run).is_file()
 
 
 def read(path: Path) -> "xr.Dataset":

@@ -11,7 +11,7 @@ from film.made import packing, turning
 
 from jostle_lab.errors import LabError
 from jostle_lab.film import film
-from jostle_lab.film.sources import read, run_scene
+from jostle_lab.film.sources import is_file, read, run_scene
 
 
 @pytest.mark.parametrize(
@@ -103,6 +103,7 @@ def test_data_of_another_kind_and_forces_that_are_not_there(tmp_path: Path) -> N
 
 
 def test_files(tmp_path: Path) -> None:
+    assert is_file("run.txt") and is_file("build/run.nc") and not is_file("packing")
     with pytest.raises(LabError, match=r"run\.csv is not there"):
         read(tmp_path / "run.csv")
     with pytest.raises(LabError, match=r"ends with '\.txt', which is not allowed: one of \.nc, \.csv, \.parquet"):

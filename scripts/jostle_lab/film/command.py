@@ -33,7 +33,7 @@ def film(
     start: Annotated[float | None, typer.Option(help="Simulated time of the first frame [s].")] = None,
     end: Annotated[float | None, typer.Option(help="Simulated time of the last frame [s]; of a file.")] = None,
     height: Annotated[int | None, typer.Option(help="Of the film [pixels]; 720, GIF and WebP 480.")] = None,
-    fps: Annotated[float | None, typer.Option(help="Frames a second; 30, WebP 25, GIF 12.5.")] = None,
+    fps: Annotated[float | None, typer.Option(help="Frames a second; 30, WebP 25, GIF 10.")] = None,
     seconds: Annotated[float | None, typer.Option(help="Simulated time of a scene [s].")] = None,
     every: Annotated[
         float | None, typer.Option(help="Time between two samples of a scene [s]. Without it: 32 a period.")

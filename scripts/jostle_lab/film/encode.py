@@ -8,18 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from jostle_lab.errors import LabError, about, describe_os_error
+from jostle_lab.film.recording import Numbers
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
 Pictures = Iterable[memoryview]
 """Red, green, blue, opacity; each of shape (height, width, 4), valid until the next one is taken."""
-PALETTE_FROM = 6
-"""Pictures from which the colours of a GIF are chosen."""
-COLOURS = 32
-"""Of a GIF."""
-MOST_IN_MEMORY = 1500
-"""Frames of a GIF or WebP, which is made in memory."""
+MOST_PIXELS = 6e8
+"""Of all frames of a GIF or WebP, which is made in memory."""
 QUALITY = 70
 """Of a WebP."""
 
@@ -86,38 +83,42 @@ def write_mp4(path: Path, pictures: Pictures, size: tuple[int, int], fps: float)
         sink.close()
 
 
-def write_gif(path: Path, frames: "list[Image]", fps: float) -> None:
-    """One set of colours for all frames, so that only what moves is stored anew."""
-    chosen = frames[:: max(len(frames) // PALETTE_FROM, 1)][:PALETTE_FROM]
-    width, height = frames[0].size
-    sheet = _pillow().new("RGB", (width, height * len(chosen)))
-    for number, frame in enumerate(chosen):
-        sheet.paste(frame, (0, number * height))
-    colours = sheet.quantize(COLOURS)
-    indexed = [frame.quantize(palette=colours, dither=_pillow().Dither.NONE) for frame in frames]
-    indexed[0].save(
-        path, save_all=True, append_images=indexed[1:], duration=round(1000.0 / fps), loop=0, optimize=False
-    )
+def write_gif(path: Path, frames: "Iterator[Image]", fps: float, colours: Numbers) -> None:
+    """A GIF of these colours alone, red, green, blue in [0, 1], shape (at most 256, 3); others become the nearest.
+
+    They are chosen by meaning and not by how often they are seen: a rare colour is that of the fastest disk.
+    """
+    chosen = _pillow().new("P", (1, 1))
+    chosen.putpalette(np.rint(255.0 * colours).astype(np.uint8).tobytes())
+    indexed = (frame.quantize(palette=chosen, dither=_pillow().Dither.NONE) for frame in frames)
+    lasting = round(1000.0 / fps)
+    next(indexed).save(path, save_all=True, append_images=indexed, duration=lasting, loop=0, optimize=False)
 
 
-def write_webp(path: Path, frames: "list[Image]", fps: float, quality: int = QUALITY) -> None:
+def write_webp(path: Path, frames: "Iterator[Image]", fps: float, count: int, quality: int) -> None:
     """Animated WebP."""
-    ends = np.rint(1000.0 / fps * np.arange(len(frames) + 1)).astype(int)
+    ends = np.rint(1000.0 / fps * np.arange(count + 1)).astype(int)
     lasting = np.diff(ends).tolist()
     # Each frame is whole: of a frame kept as a change of the last one, squares of that stay behind.
-    frames[0].save(
-        path, save_all=True, append_images=frames[1:], duration=lasting, loop=0, quality=quality, method=4, kmax=1
+    next(frames).save(
+        path, save_all=True, append_images=frames, duration=lasting, loop=0, quality=quality, method=4, kmax=1
     )
 
 
-def images(pictures: Pictures, size: tuple[int, int], count: int) -> "list[Image]":
-    """Copies of all of them, without opacity; refused are more than fit into memory."""
-    if count > MOST_IN_MEMORY:
+def images(pictures: Pictures, size: tuple[int, int]) -> "Iterator[Image]":
+    """Copies of them, without opacity."""
+    for picture in pictures:
+        yield _pillow().frombuffer("RGBA", size, picture, "raw", "RGBA", 0, 1).convert("RGB")
+
+
+def check_memory(count: int, size: tuple[int, int]) -> None:
+    """Raise LabError if a GIF or WebP of so many frames is larger than what is kept in memory."""
+    if count * size[0] * size[1] > MOST_PIXELS:
+        most = int(MOST_PIXELS / (size[0] * size[1]))
         raise LabError(
-            f"The film has {count} frames; at most {MOST_IN_MEMORY} fit into a GIF or WebP. Show a part of the run "
-            "(start, end), choose a smaller slow or fps, or write .mp4."
+            f"The film has {count} frames of {size[0]} by {size[1]} pixels; at most {most} of them fit into a GIF or "
+            "WebP. Show a part of the run (start, end), choose a smaller slow, fps or height, or write .mp4."
         )
-    return [_pillow().frombuffer("RGBA", size, p, "raw", "RGBA", 0, 1).convert("RGB") for p in pictures]
 
 
 def _ffmpeg() -> Any:

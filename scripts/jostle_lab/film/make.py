@@ -24,7 +24,7 @@ ENDINGS = (".mp4", ".gif", ".webp", ".html")
 """Of films."""
 SMALL = (".gif", ".webp")
 """Endings for pages and mails, of less height."""
-RATES = {".mp4": 30.0, ".html": 30.0, ".webp": 25.0, ".gif": 12.5}
+RATES = {".mp4": 30.0, ".html": 30.0, ".webp": 25.0, ".gif": 10.0}
 """Frames a second; a GIF keeps whole frames, so that few of them make it small."""
 
 
@@ -58,7 +58,7 @@ def film(
         start: simulated time of the first frame [s]; None: the first sample.
         end: simulated time of the last frame [s]; None: the last sample.
         height: of the film [pixels], 160 to 2160. None: 720; GIF and WebP 480.
-        fps: frames a second, 1 to 60. None: 30; WebP 25, GIF 12.5.
+        fps: frames a second, 1 to 60. None: 30; WebP 25, GIF 10.
         progress: show a bar; None: in a terminal.
 
     Returns:
@@ -110,11 +110,14 @@ def write_script(
     chosen = pace.pace(run, slow, start, end, fps or RATES[ending])
     if told := pace.warning(run):
         warnings.warn(told, FilmWarning, stacklevel=3)
-    found, why_not = _forces(run, chosen, contacts, colour, progress, make)
     shown = slice(int(chosen.earlier[0]), int(chosen.earlier[-1]) + 2)
     seen = scenery(run, shown)
+    layout = lay_out(seen, height)
+    if ending in SMALL:
+        encode.check_memory(chosen.frames, (layout.width, layout.height))
+    found, why_not = _forces(run, chosen, contacts, colour, progress, make)
     coloured = colours.colouring(run, chosen, colour, found, why_not)
-    return Script(run, chosen, seen, lay_out(seen, height), coloured, found if contacts is not False else None, why_not)
+    return Script(run, chosen, seen, layout, coloured, found if contacts is not False else None, why_not)
 
 
 def write(script: Script, path: Path, progress: bool | None = None, quality: int = encode.QUALITY) -> None:
@@ -128,9 +131,9 @@ def write(script: Script, path: Path, progress: bool | None = None, quality: int
     if path.suffix.lower() == ".mp4":
         encode.write_mp4(path, pictures, size, script.pace.fps)
     elif path.suffix.lower() == ".gif":
-        encode.write_gif(path, encode.images(pictures, size, count), script.pace.fps)
+        encode.write_gif(path, encode.images(pictures, size), script.pace.fps, stage.few_colours())
     else:
-        encode.write_webp(path, encode.images(pictures, size, count), script.pace.fps, quality)
+        encode.write_webp(path, encode.images(pictures, size), script.pace.fps, count, quality)
 
 
 def check(path: Path, colour: str, height: int | None, fps: float | None) -> None:

@@ -159,7 +159,7 @@ def chosen(recording: Recording, span: float, fps: float) -> float:
     return max(down_to_nice(wanted), 1.0)
 
 
-def down_to_nice(value: float) -> float:
-    """The largest number of one or two digits that is not above `value`."""
+def down_to_nice(value: float, digits: tuple[float, ...] = NICE) -> float:
+    """The largest of `digits` times a power of ten that is not above `value`."""
     power = 10.0 ** math.floor(math.log10(value))
-    return max(digit for digit in NICE if digit <= value / power * (1.0 + 1e-9)) * power
+    return max(digit for digit in digits if digit <= value / power * (1.0 + 1e-9)) * power

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
@@ -88,6 +89,13 @@ class Stage:
             artist.draw(renderer)
         pixels: Pixels = self._canvas.buffer_rgba()
         return pixels
+
+    def few_colours(self) -> Numbers:
+        """Every other shade, lit and dark, and what else is drawn; in [0, 1], shape (colours, 3)."""
+        shades = self.script.colouring.palette[::2]
+        dark = (1.0 - SHADE[3]) * shades + SHADE[3] * np.array(SHADE[:3])
+        rest = [to_rgb(colour) for colour in (INK, PAPER, AIR, SOLID, "0.3", "0.5", "0.7", "0.87")]
+        return np.vstack((shades, dark, rest))
 
     def hand(self, frame: Frame) -> Numbers | None:
         """Ends of the hand of the dial [pixels], shape (2, 2); None without a dial."""
@@ -227,10 +235,7 @@ class Stage:
 
     def _scale_bar(self, side: Rectangle) -> None:
         layout, letter = self.script.layout, self.letter
-        metres = down_to_nice(0.55 * side.width / layout.scale)
-        metres = max(
-            digit for digit in (1.0, 2.0, 5.0) if digit <= metres / 10 ** math.floor(math.log10(metres)) + 1e-9
-        ) * (10 ** math.floor(math.log10(metres)))
+        metres = down_to_nice(0.55 * side.width / layout.scale, (1.0, 2.0, 5.0))
         y, end = side.bottom + 0.6 * letter, side.left + metres * layout.scale
         self._axes.plot([side.left, end], [y, y], color=INK, lw=0.14 * letter, solid_capstyle="butt")
         for x in (side.left, end):

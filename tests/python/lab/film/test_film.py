@@ -74,11 +74,27 @@ def test_every_disk_of_a_packing_is_drawn_at_its_place_and_angle() -> None:
 
 def test_gif_of_three_seconds_of_sixty_disks_is_below_one_mebibyte(tmp_path: Path) -> None:
     sim = jostle.Simulation("packing", **{"drive.amplitude": 3e-3, "drive.frequency": 12.0})
-    data = sim.run(0.5, every=0.004, outputs=["disk.x", "disk.y", "disk.angle", "base.position"])
-    film(data, tmp_path / "film.gif", slow=6.0, contacts=False)
+    data = sim.run(0.5, every=0.002, outputs=["disk.x", "disk.y", "disk.angle", "base.position"])
+    film(data, tmp_path / "film.gif", slow=6.0, contacts=True)
     with Image.open(tmp_path / "film.gif") as made:
-        assert (made.height, made.n_frames, made.info["duration"]) == (480, 38, 80)  # type: ignore[attr-defined]
+        assert (made.height, made.n_frames, made.info["duration"]) == (480, 31, 100)  # type: ignore[attr-defined]
     assert (tmp_path / "film.gif").stat().st_size < 2**20
+
+
+def test_a_gif_keeps_the_colour_of_one_fast_disk_among_many(tmp_path: Path) -> None:
+    data = packing(seconds=0.3)
+    data["disk.angle"][:, 2] = -30.0 * data["time"]
+    film(data, tmp_path / "film.gif", slow=2.0, contacts=False)
+    script = write_script(data, ".gif", slow=2.0, contacts=False)
+    number = int(np.argmin(script.colouring.shades[:, 2]))
+    assert script.colouring.shades[number, 2] == 0
+    frame = script.frame(number)
+    to_left = frame.angles[2] + math.pi
+    x, y = frame.centres[2] + 0.5 * script.radii[2] * np.array([math.cos(to_left), math.sin(to_left)])
+    with Image.open(tmp_path / "film.gif") as made:
+        made.seek(number)
+        seen = made.convert("RGB").getpixel((round(x), round(script.layout.height - y)))
+    assert seen == pytest.approx(255.0 * script.colouring.palette[0], abs=2)
 
 
 def test_webp_has_all_frames_and_lasts_as_long_as_told(tmp_path: Path) -> None:

@@ -11,6 +11,17 @@
     player     all frames -> a page                make       all of it
 """
 
-from jostle_lab.film.make import FilmWarning, film
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from jostle_lab.film.make import FilmWarning, film
 
 __all__ = ["FilmWarning", "film"]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what films need only if one is made: the command line lists its commands without it."""
+    if name in __all__:
+        return getattr(import_module("jostle_lab.film.make"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -31,7 +31,7 @@ def lab(*words: str) -> subprocess.CompletedProcess[str]:
 def test_tables_of_jostle_run_are_the_dataset_of_python(scene: str, jostle: Path, tmp_path: Path) -> None:
     """With contacts: their run done again from the file has the same bits."""
     table = tmp_path / "run.csv"
-    command = [str(jostle), "run", scene, "--seconds", "0.05", "--sample", "0.002", "--output", str(table)]
+    command = [str(jostle), "run", scene, "--seconds", "0.05", "--sample", "0.001", "--output", str(table)]
     subprocess.run(command, check=True, capture_output=True)
     data = jostle_run(scene)
     data.to_netcdf(tmp_path / "run.nc", engine="scipy")
@@ -51,7 +51,7 @@ def test_tables_of_jostle_run_are_the_dataset_of_python(scene: str, jostle: Path
 
 
 def jostle_run(scene: str) -> object:
-    return jostle.Simulation(scene).run(0.05, every=0.002)
+    return jostle.Simulation(scene).run(0.05, every=0.001)
 
 
 def test_a_run_that_is_joined_to_arrays_keeps_numbers_and_words(tmp_path: Path) -> None:

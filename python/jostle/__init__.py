@@ -7,7 +7,7 @@
 ('time', 'disk')
 """
 
-import pandas as pd
+from typing import TYPE_CHECKING
 
 from jostle._core import VERSION, State
 from jostle._core import scenes as _scenes
@@ -22,6 +22,9 @@ from jostle.errors import (
     StepError,
 )
 from jostle.simulation import Simulation
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 __version__ = VERSION
 
@@ -41,6 +44,8 @@ __all__ = [
 ]
 
 
-def scenes() -> pd.DataFrame:
+def scenes() -> "pd.DataFrame":
     """Table of what can be simulated: scene, engine, drive, description, smallest and largest number of disks."""
+    import pandas as pd  # noqa: PLC0415 - takes longer than all else, and loops do without
+
     return pd.DataFrame(_scenes(), columns=["scene", "engine", "drive", "description", "fewest_disks", "most_disks"])

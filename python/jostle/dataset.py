@@ -1,12 +1,14 @@
 """Samples of a run as an `xarray.Dataset` with units and descriptions."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from jostle.variables import Variable
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def dimension(variable: Variable) -> str:
@@ -25,7 +27,7 @@ def dataset(
     sampled: list[Variable],
     fixed: dict[str, tuple[Variable, Any]],
     attributes: dict[str, Any],
-) -> xr.Dataset:
+) -> "xr.Dataset":
     """Name what was sampled.
 
     Args:
@@ -36,6 +38,8 @@ def dataset(
         attributes: of the whole.
 
     """
+    import xarray as xr  # noqa: PLC0415 - as in `simulation`
+
     data: dict[str, Any] = {}
     coordinates: dict[str, Any] = {"time": ("time", times, {"units": "s", "long_name": "Simulated time"})}
     for variable in (*sampled, *(v for v, _ in fixed.values())):

@@ -4,11 +4,9 @@ import copy
 import math
 import warnings
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
-import xarray as xr
 from numpy.typing import NDArray
 
 from jostle import arguments
@@ -16,6 +14,10 @@ from jostle._core import VERSION, Core, State
 from jostle.dataset import dataset
 from jostle.errors import JostleError, JostleWarning, NoVariableError, ParameterError, StateError
 from jostle.variables import Variable, find, grouped
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
 MOST_VALUES = 2**31
 """Of one run: 16 GiB. More is a slip of the keyboard."""
@@ -99,8 +101,10 @@ class Simulation:
         return self._core.time
 
     @property
-    def variables(self) -> pd.DataFrame:
+    def variables(self) -> "pd.DataFrame":
         """Table of the variables: one row a name; causality, kind, unit, range, start, size, options, description."""
+        import pandas as pd  # noqa: PLC0415 - takes longer than all else, and loops do without
+
         rows = {
             v.name: {
                 "causality": v.causality,
@@ -196,7 +200,7 @@ class Simulation:
             self._views[name] = filled, filled.view()
         return self._views[name][1]
 
-    def contacts(self) -> pd.DataFrame:
+    def contacts(self) -> "pd.DataFrame":
         """Return the closed contacts of now, one a row, of engines whose contacts last.
 
         Columns: `first` and `second`, numbers of the disks (`second` is 0 at a wall or support), `wall`, number of the
@@ -208,6 +212,8 @@ class Simulation:
             CallError: the engine has impacts instead of contacts.
 
         """
+        import pandas as pd  # noqa: PLC0415 - as in `variables`
+
         columns, numbers = self._core.list("contacts")
         names = [name for name, _, _ in columns]
         table = pd.DataFrame(np.frombuffer(numbers).reshape(-1, len(names)), columns=names)
@@ -252,7 +258,7 @@ class Simulation:
         self._core.advance_to(arguments.instant("time", time))
         self._refresh()
 
-    def run(self, seconds: float, every: float = 0.01, outputs: Iterable[str] | None = None) -> xr.Dataset:
+    def run(self, seconds: float, every: float = 0.01, outputs: Iterable[str] | None = None) -> "xr.Dataset":
         """Advance and sample, the present time included.
 
         Args:

@@ -3,7 +3,7 @@
 import difflib
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from jostle.arguments import LONGEST, shown
@@ -55,20 +55,24 @@ class Variable:
 
 
 def grouped(rows: "Iterable[Row]") -> dict[str, Variable]:
-    """Variables by name; those that differ only in a number in brackets as one."""
-    found: dict[str, Variable] = {}
-    for position, (name, causality, kind, unit, low, high, start, options, told) in enumerate(rows):
-        base = re.sub(r"\[\d+\]", "", name)
-        text = re.sub(r"\bof disk 1\b", "of each disk", told)
-        if base != name and base in found:
-            first = found[base]
-            found[base] = replace(first, positions=(*first.positions, position), elements=(*first.elements, name))
-        else:
-            elements = (name,) if base != name else ()
-            found[base] = Variable(
-                base, causality, kind, unit, low, high, start, tuple(options), text, (position,), elements
-            )
-    return found
+    """Variables by name; those that differ only in a number in brackets as one, unless that name is taken."""
+    members: dict[str, list[tuple[int, Row]]] = {}
+    rows = list(rows)
+    taken = {row[0] for row in rows}
+    for position, row in enumerate(rows):
+        base = re.sub(r"\[\d+\]", "", row[0]) if "[" in row[0] else row[0]
+        name = row[0] if base in taken else base
+        members.setdefault(name, []).append((position, row))
+    return {base: _variable(base, found) for base, found in members.items()}
+
+
+def _variable(base: str, members: "list[tuple[int, Row]]") -> Variable:
+    """What is known of all from the first of them."""
+    name, causality, kind, unit, low, high, start, options, told = members[0][1]
+    elements = tuple(row[0] for _, row in members) if name != base else ()
+    positions = tuple(position for position, _ in members)
+    text = re.sub(r"\bof disk 1\b", "of each disk", told)
+    return Variable(base, causality, kind, unit, low, high, start, tuple(options), text, positions, elements)
 
 
 def find(variables: dict[str, Variable], name: str, scene: str) -> tuple[Variable, int | None]:

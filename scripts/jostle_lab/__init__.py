@@ -7,8 +7,9 @@ accelerometers and a camera watch. The grains are an FMU; everything else is her
 
     fmu, loudspeaker   the two models          coupling    masters that advance them together
     sensors            what is measured        protocol    what is done to packings, and the results folder
-    runs               the native program      statistics  means, errors, rotation
+    runs               sweeps and studies      statistics  means, errors, rotation
     demos              three demonstrations    plots       what their pictures share
+    film               films of runs
 
 SI units and radians everywhere; x right, y up, angles counter-clockwise positive. The laboratory is that of G. G.
 Peraza Mues, "Spontaneous rotation in vibrated disk packings", doctoral thesis, Cinvestav Mérida, 2018, sections 2.4 and

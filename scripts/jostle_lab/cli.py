@@ -13,8 +13,10 @@ from jostle_lab.demos.packing.command import demo, draw, exchanges, held_loop, s
 from jostle_lab.demos.ratchet.command import ratchet_demo
 from jostle_lab.demos.torque.command import torque_demo
 from jostle_lab.errors import LabError, describe_os_error
+from jostle_lab.film.command import film
 from jostle_lab.loudspeaker.command import loudspeaker
 from jostle_lab.runs.command import sweep
+from jostle_lab.stopping import stoppable
 
 HELP = (
     "The laboratory of vibrated granular disks on a computer: a loudspeaker shakes a packing FMU, two accelerometers "
@@ -64,7 +66,8 @@ def _docstring(module: str, name: str) -> str:
 def call(app: typer.Typer) -> None:
     """Run it: what the user can put right is reported without a traceback. A file or folder that fails ends with 1."""
     try:
-        app()
+        with stoppable():
+            app()
     except LabError as error:
         typer.echo(f"error: {error}", err=True)
         raise SystemExit(2) from None
@@ -91,6 +94,7 @@ def main() -> None:
         ratchet_demo,
         torque_demo,
         loudspeaker,
+        film,
     ]
     # A wheel holds the laboratory alone; the studies, whose records are in the source tree, are beside it there.
     if find_spec("studies"):

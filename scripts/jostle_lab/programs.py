@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from jostle_lab import stopping
 from jostle_lab.errors import LabError
 
 
@@ -22,17 +23,27 @@ class Ended:
 
 
 def timed(words: Sequence[str | Path], messages: Path, limit: float | None = None) -> Ended:
-    """Run a program, its messages into a file; `limit` [s] on the clock, after which it is killed."""
+    """Run a program, its messages into a file; `limit` [s] on the clock, after which it is killed.
+
+    A command that is stopped kills it, from whatever thread it was started, and `stopping.Stopped` is raised.
+    """
     begun = time.perf_counter()
-    with messages.open("wb") as file:
-        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file)
-    timer = threading.Timer(limit, process.kill) if limit else None
-    if timer:
-        timer.start()
-    _, status, usage = os.wait4(process.pid, 0)
+
+    def start() -> subprocess.Popen[bytes]:
+        with messages.open("wb") as file:
+            return subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file)
+
+    with stopping.running(start) as process:
+        timer = threading.Timer(limit, process.kill) if limit else None
+        if timer:
+            timer.start()
+        try:
+            _, status, usage = os.wait4(process.pid, 0)
+        finally:
+            if timer:
+                timer.cancel()
     process.returncode = os.waitstatus_to_exitcode(status)
-    if timer:
-        timer.cancel()
+    stopping.check_ended_by(process.returncode)
     return Ended(process.returncode, usage.ru_utime + usage.ru_stime, time.perf_counter() - begun)
 
 

@@ -11,6 +11,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from jostle_lab.errors import LabError, about, describe_os_error
+from jostle_lab.files import replacing
 
 Table = dict[str, NDArray[np.float64]]
 """Columns by name."""
@@ -24,9 +25,9 @@ def write_table(path: Path, rows: Sequence[Mapping[str, Any]], columns: Sequence
 
 
 def write_frame(path: Path, frame: pl.DataFrame) -> None:
-    """Write a table of polars."""
-    with _named(path):
-        frame.write_csv(path)
+    """Write a table of polars, whole or not at all."""
+    with _named(path), replacing(path) as draft:
+        frame.write_csv(draft)
 
 
 def replace_parquet(path: Path, frame: pl.DataFrame, draft: Path, **options: Any) -> None:

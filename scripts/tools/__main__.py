@@ -11,8 +11,11 @@ COMMANDS = (
     "tools.release.command:binaries",
     "tools.release.command:verify",
     "tools.notices:notices",
+    "tools.film_frames:film_frames",
+    "tools.readme_film:readme_film",
     "tools.readme_picture:readme_picture",
     "tools.live_page:live_page",
+    "tools.notebooks:notebooks",
     "tools.two_builds:two_builds",
 )
 

@@ -14,12 +14,14 @@ from numpy.typing import NDArray
 from PIL import Image, ImageChops
 
 from jostle_lab import options
-from jostle_lab.demos.packing.command import AMPLITUDES, FIRST_PICTURE, demo
+from jostle_lab.demos.packing.command import demo
 from jostle_lab.demos.packing.figures import GAMMA_DRAWN
+from jostle_lab.demos.packing.schedules import AMPLITUDES
 from jostle_lab.errors import LabError
 from jostle_lab.protocol.results import Results
 from tools.paths import README_PICTURE
 
+PICTURE = "packing.png"
 SHAKEN = 4
 """Amplitudes of the demo from the strongest on."""
 COLOURS = 64
@@ -39,7 +41,7 @@ def make(fmu: Path | None, out: Path, progress: bool = False) -> None:
         weakest = min(row["gamma_true"] for row in Results(Path(folder)).amplitudes_of(1))
         if weakest > GAMMA_DRAWN:
             raise LabError(f"Gamma is {weakest:.2f} at the last of {amplitudes}: the demo may draw a later one.")
-        Image.open(Path(folder) / FIRST_PICTURE).convert("RGB").quantize(COLOURS).save(out, "PNG", optimize=True)
+        Image.open(Path(folder) / PICTURE).convert("RGB").quantize(COLOURS).save(out, "PNG", optimize=True)
 
 
 def difference(first: Path, second: Path) -> float:

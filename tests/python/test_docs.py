@@ -183,17 +183,27 @@ def test_a_page_is_written():
     assert "jostle/app" in (BUILD / "ratchet.html").read_text()
 
 
-def test_sweep_writes_parquet():
+def test_films_of_a_dataset_a_file_and_a_scene_are_made(tmp_path: Path):
+    python(snippet("docs/film.md", "python", "film"), tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["packing.mp4"]
+    shell(snippet("docs/film.md", "sh", "film"))
+    assert (BUILD / "film.gif").read_bytes().startswith(b"GIF89a")
+    assert (BUILD / "film.html").read_text().startswith("<!doctype html>")
+
+
+def test_sweep_writes_parquet_that_pandas_reads():
     run("rm", "-rf", str(BUILD / "sweep"))
-    script = snippet(PHYSICIST, "sh", "sweep")
-    shell(script.replace("sweep build/grid.toml", f"sweep build/grid.toml --program {RELEASE / 'jostle'}"))
+    shell(snippet(PHYSICIST, "sh", "sweep"))
     assert list((BUILD / "sweep").glob("part-*.parquet"))
+    rows = python(snippet(PHYSICIST, "python", "sweep")).splitlines()[2:]
+    assert [float(row.split()[0]) for row in rows] == [20.0, 30.0]
+    assert all(len(row.split()) == 3 for row in rows)
 
 
 def test_grid_of_the_page_of_figures_is_read():
     (BUILD / "page.toml").write_text(snippet("docs/figures.md", "toml", "grid"))
     small = ["--seconds", "0.02", "--seeds", "1", "--grid", "drive.frequency=15", "--grid", "disks=5"]
-    places = ["--program", str(RELEASE / "jostle"), "--results", str(BUILD / "sweep-page")]
+    places = ["--results", str(BUILD / "sweep-page")]
     run(sys.executable, "-m", "jostle_lab", "sweep", str(BUILD / "page.toml"), *small, *places)
     assert list((BUILD / "sweep-page").glob("part-*.parquet"))
 

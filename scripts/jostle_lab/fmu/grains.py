@@ -53,6 +53,16 @@ class Grains(Protocol):
     def discard(self, saved: Any) -> None:
         """Free `saved`."""
 
+    @property
+    def can_serialise(self) -> bool:
+        """Whether the next two can be called."""
+
+    def to_bytes(self) -> bytes:
+        """The state, for another process."""
+
+    def from_bytes(self, state: bytes) -> None:
+        """Go on from the state of grains with the same parameters; they step to the same bits then."""
+
     def close(self) -> None:
         """Release everything."""
 

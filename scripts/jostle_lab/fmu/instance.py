@@ -6,7 +6,9 @@ scene mean (`packing`, `ratchet`, `disk_on_two_supports`).
 """
 
 import ctypes
+import json
 import shutil
+import tempfile
 import zipfile
 import zlib
 from collections.abc import Callable, Mapping, Sequence
@@ -61,6 +63,21 @@ def fingerprint(path: Path) -> str:
     with archive:
         sums = [entry.CRC for entry in archive.infolist() if entry.filename.startswith("binaries/")]
     return f"{zlib.crc32(repr(sums).encode()):08x}"
+
+
+def _unpacked(path: Path) -> str:
+    """A temporary folder with what is in an FMU; raises LabError if there is no room for it."""
+    folder = tempfile.mkdtemp(prefix="jostle-fmu-")
+    try:
+        extract(str(path), unzipdir=folder)
+    except OSError as error:
+        shutil.rmtree(folder, ignore_errors=True)
+        there = tempfile.gettempdir()
+        raise LabError(
+            f"{path} cannot be unpacked in {there}: {error.strerror or error}. Make room there, or name another folder "
+            "with TMPDIR."
+        ) from None
+    return folder
 
 
 class Group:
@@ -122,7 +139,7 @@ class FmuInstance:
         self._description = describe(path, self.scene)
         self._variables = {v.name: v for v in self._description.modelVariables}
         self._temporary = directory is None
-        self._directory = str(directory) if directory is not None else extract(str(path))
+        self._directory = str(directory) if directory is not None else _unpacked(path)
         self._fmu: Any = None
         try:
             self._instantiate()
@@ -312,6 +329,35 @@ class FmuInstance:
     def discard(self, saved: Any) -> None:
         """Free `saved`."""
         (self._fmu.freeFMUstate if self.fmi_version == 2 else self._fmu.freeFMUState)(saved[0])
+
+    @property
+    def can_serialise(self) -> bool:
+        """Whether it has the functions for its state as bytes."""
+        return self.can_save and bool(self._description.coSimulation.canSerializeFMUstate)
+
+    def to_bytes(self) -> bytes:
+        """The state, for an instance with the same parameters in another process."""
+        state, clock = self.save()
+        try:
+            serialise = self._fmu.serializeFMUstate if self.fmi_version == 2 else self._fmu.serializeFMUState
+            return json.dumps(clock).encode() + b"\n" + bytes(serialise(state))
+        finally:
+            self.discard((state, clock))
+
+    def from_bytes(self, state: bytes) -> None:
+        """Go on from a state that `to_bytes` gave.
+
+        Raises LabError if the FMU refuses it.
+        """
+        clock, _, kept = state.partition(b"\n")
+        read = self._fmu.deSerializeFMUstate if self.fmi_version == 2 else self._fmu.deserializeFMUState
+        try:
+            saved = read(kept), tuple(json.loads(clock))
+        except (FMICallException, ValueError) as error:
+            said = " ".join(self._log[-1:]) or f"{str(error).rstrip('.')}."
+            raise LabError(f"{self.path} refuses the state that was kept of it. {said}") from error
+        self.restore(saved)
+        self.discard(saved)
 
     def _clock(self) -> tuple[Any, ...]:
         return (self.time,)

@@ -44,7 +44,7 @@ KEPT_TRANSITIONS = 64
 """Steps whose matrices are kept."""
 
 
-class _Mark(NamedTuple):
+class Mark(NamedTuple):
     """When step or frequency changed last: what is counted from there."""
 
     steps: int = 0
@@ -79,7 +79,7 @@ class Loudspeaker:
         self.mass = driver.moving_mass + carried_mass
         self.voltage_amplitude = 0.0
         self.steps_taken = 0
-        self._mark = _Mark()
+        self._mark = Mark()
         self._state = np.zeros(3)
         self._transitions: dict[tuple[float, float], list[list[float]]] = {}
         self._transition = self._transition_matrix()
@@ -115,7 +115,7 @@ class Loudspeaker:
     def retune(self, drive_frequency: float) -> None:
         """Drive at another frequency [Hz] from now on; the voltage goes on without a jump in phase."""
         require("drive frequency [Hz]", drive_frequency, 1e-3, 1e5, "Choose one between 5 and 500.")
-        self._mark = _Mark(self.steps_taken, self.time, self.drive_turns)
+        self._mark = Mark(self.steps_taken, self.time, self.drive_turns)
         self.drive_frequency = drive_frequency
         self._transition = self._transition_matrix()
 
@@ -124,7 +124,7 @@ class Loudspeaker:
         if step == self.step_size:
             return
         require("communication step [s]", step, *STEPS, "Choose a step between 1e-5 and 1e-3 s.")
-        self._mark = _Mark(self.steps_taken, self.time, self.drive_turns)
+        self._mark = Mark(self.steps_taken, self.time, self.drive_turns)
         self.step_size = step
         self._transition = self._transition_matrix()
 
@@ -175,11 +175,11 @@ class Loudspeaker:
         self.steps_taken += 1
         return float(-reaction_force * (self._state[1] - before))
 
-    def save(self) -> tuple[NDArray[np.float64], int, float, _Mark]:
+    def save(self) -> tuple[NDArray[np.float64], int, float, Mark]:
         """Everything that `advance` and `change_step` change."""
         return self._state.copy(), self.steps_taken, self.step_size, self._mark
 
-    def restore(self, saved: tuple[NDArray[np.float64], int, float, _Mark]) -> None:
+    def restore(self, saved: tuple[NDArray[np.float64], int, float, Mark]) -> None:
         """Return to a state that `save` gave; the drive frequency stays."""
         state, self.steps_taken, self.step_size, self._mark = saved
         self._state = state.copy()

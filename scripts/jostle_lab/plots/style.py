@@ -8,7 +8,7 @@ import matplotlib as mpl
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from jostle_lab.errors import about
+from jostle_lab.files import replacing
 
 STYLE = {
     "font.size": 9.0,
@@ -32,11 +32,9 @@ WIDTH = 7.2
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Write a picture; what fails names the file."""
-    try:
-        figure.savefig(path)
-    except OSError as error:
-        raise about(path, error) from None
+    """Write a picture, whole or not at all; what fails names the file."""
+    with replacing(path) as draft:
+        figure.savefig(draft, format=path.suffix[1:])
 
 
 @contextmanager

@@ -1,6 +1,7 @@
 """One packing through the whole protocol: grains and protocol in, a folder of CSV files out.
 
-A folder whose `packing.json` exists is complete; until then its tables grow with each interval.
+A folder whose `packing.json` exists is complete; until then its tables grow with each interval, and what was stopped
+goes on after the last of them, to the same bits.
 """
 
 import json
@@ -20,8 +21,11 @@ from jostle_lab.coupling.master import Coupling
 from jostle_lab.errors import LabError, require
 from jostle_lab.files import replace_text
 from jostle_lab.fmu.grains import Grains
-from jostle_lab.loudspeaker.model import Loudspeaker
+from jostle_lab.loudspeaker.model import Loudspeaker, Mark
+from jostle_lab.protocol import checkpoint
+from jostle_lab.protocol.checkpoint import Checkpoint
 from jostle_lab.protocol.intervals import Interval, Protocol
+from jostle_lab.protocol.now import Now, Observer
 from jostle_lab.sensors.accelerometer import STANDARD_GRAVITY, Accelerometer
 from jostle_lab.sensors.camera import Camera, aliasing, photograph, unwrap
 from jostle_lab.sensors.spectral_amplitude import spectral_amplitude, true_amplitude
@@ -35,8 +39,9 @@ KEPT_SECONDS = 60
 FINISHED, UNFINISHED = "packing.json", "unfinished.json"
 """Summary of a packing, and of one whose protocol goes on."""
 
-Progress = Callable[[int], None]
-"""Called with the simulated seconds that have passed since the last call; 0: the tables have been written."""
+Progress = Callable[[int | Now], None]
+"""Called with the simulated seconds that have passed since the last call; 0: the tables have been written. And now and
+then with what the disks do."""
 
 
 @dataclass(frozen=True)
@@ -107,45 +112,98 @@ class PackingRun:
         self.sensor_cost, self._started, self._spent = 0.0, perf_counter(), process_time()
         self._amplitudes: list[Row] = []
         self._disks: list[Row] = []
-        self._angles: list[NDArray[np.float64]] = []
-        self._readings: list[NDArray[np.float64]] = []
-        self._positions: list[NDArray[np.float64]] = []
+        self._blocks: dict[str, list[NDArray[np.float64]]] = {"angles": [], "accelerometers": [], "positions": []}
+        self._observer = Observer(grains, seed)
 
-    def shake(self, amplitude: float, seconds: int, progress: Progress) -> None:
+    @property
+    def recorded(self) -> int:
+        """Number of intervals that are done."""
+        return len(self._amplitudes)
+
+    def shake(self, amplitude: float, seconds: int, progress: Progress, doing: str = "settling") -> None:
         """Shake at a fraction of the full drive, unobserved."""
         self.loudspeaker.voltage_amplitude = amplitude * self.full_voltage
+        self._observer.begin(amplitude, doing)
         for _ in range(seconds):
             self.coupling.run(self.setup.steps_per_second)
-            progress(1)
+            self._report(1, progress)
 
-    def record(self, number: int, interval: Interval, progress: Progress) -> None:
-        """Go through interval `number`."""
-        self.shake(interval.amplitude, interval.relaxation, progress)
-        record = _record(self.coupling, self.setup, interval, progress)
+    def _report(self, seconds: int, progress: Progress) -> None:
+        progress(seconds)
+        if (now := self._observer.look(seconds)) is not None:
+            progress(now)
+
+    def record(self, interval: Interval, progress: Progress) -> None:
+        """Go through the next interval."""
+        number = self.recorded
+        self.shake(interval.amplitude, interval.relaxation, progress, "relaxing")
+        self._observer.begin(interval.amplitude, "recording")
+        record = _record(self.coupling, self.setup, interval, lambda seconds: self._report(seconds, progress))
         measuring = perf_counter()
         sensors = _read_sensors(record, self.setup, (self.seed, number))
         self._amplitudes.append(_amplitude_row(record, sensors, self.setup, self.grains, self.seed))
         self._disks.extend(_disk_rows(record, self.setup, self.grains, self.seed))
-        self._angles.append(_frame_rows(record, self.setup, record.angles))
+        self._blocks["angles"].append(_frame_rows(record, self.setup, record.angles))
         if self.setup.keep_positions:
-            self._positions.append(_frame_rows(record, self.setup, record.positions.reshape(len(record.angles), -1)))
-        self._readings.append(_sensor_rows(interval, sensors, self.setup))
+            places = record.positions.reshape(len(record.angles), -1)
+            self._blocks["positions"].append(_frame_rows(record, self.setup, places))
+        self._blocks["accelerometers"].append(_sensor_rows(interval, sensors, self.setup))
         self.sensor_cost += perf_counter() - measuring
 
     def write(self) -> None:
-        """Write the tables of the intervals so far, and the summary as `UNFINISHED`."""
+        """Write the tables of the intervals so far, the summary as `UNFINISHED`, and the checkpoint to go on from."""
         self.folder.mkdir(parents=True, exist_ok=True)
         write_table(self.folder / "amplitudes.csv", self._amplitudes)
         write_table(self.folder / "disks.csv", self._disks)
-        for file, column, blocks in (("angles", "disk", self._angles), ("accelerometers", "sensor", self._readings)):
-            rows = np.concatenate(blocks)
-            names = ["amplitude", "time", *(f"{column}_{i}" for i in range(1, rows.shape[1] - 1))]
-            write_frame(self.folder / f"{file}.csv", pl.DataFrame(rows, schema=names))
-        if self._positions:
-            names = [f"{axis}_{i}" for i in range(1, self.grains.radii.size + 1) for axis in "xy"]
-            rows = np.concatenate(self._positions)
-            write_frame(self.folder / "positions.csv", pl.DataFrame(rows, schema=["amplitude", "time", *names]))
+        centres = [f"{axis}_{i}" for i in range(1, self.grains.radii.size + 1) for axis in "xy"]
+        for file, blocks in self._blocks.items():
+            if blocks:
+                rows = np.concatenate(blocks)
+                kind = {"angles": "disk", "accelerometers": "sensor"}.get(file)
+                columns = [f"{kind}_{i}" for i in range(1, rows.shape[1] - 1)] if kind else centres
+                write_frame(self.folder / f"{file}.csv", pl.DataFrame(rows, schema=["amplitude", "time", *columns]))
         replace_text(self.folder / UNFINISHED, json.dumps(self._summary(), indent=2) + "\n")
+        if self.grains.can_serialise:
+            checkpoint.save(self.folder, self._state())
+
+    def finish(self) -> None:
+        """All is written: nothing is to go on from."""
+        (self.folder / UNFINISHED).replace(self.folder / FINISHED)
+        (self.folder / checkpoint.FILE).unlink(missing_ok=True)
+
+    def _state(self) -> Checkpoint:
+        state, steps, step_size, mark = self.loudspeaker.save()
+        plain = {
+            "seconds": round(self.loudspeaker.time),
+            "amplitudes": self._amplitudes,
+            "disks": self._disks,
+            "loudspeaker": [steps, step_size, list(mark)],
+            "coupling": [self.coupling.reaction_force, self.coupling.work_by_plate],
+            "spent": [perf_counter() - self._started, process_time() - self._spent],
+            "costs": [self.coupling.loudspeaker_cost, self.sensor_cost, self.grains.costs],
+        }
+        grains = np.frombuffer(self.grains.to_bytes(), np.uint8)
+        blocks = {name: np.concatenate(blocks) for name, blocks in self._blocks.items() if blocks}
+        return Checkpoint(plain, {"grains": grains, "speaker": state, **blocks})
+
+    def resume(self) -> bool:
+        """Go back to where a process that was stopped wrote last; False if there is nothing to go back to."""
+        found = checkpoint.load(self.folder)
+        if found is None:
+            return False
+        plain, arrays = found.plain, dict(found.arrays)
+        self.grains.from_bytes(arrays.pop("grains").tobytes())
+        steps, step_size, mark = plain["loudspeaker"]
+        self.loudspeaker.restore((arrays.pop("speaker"), steps, step_size, Mark(*mark)))
+        self.coupling.reaction_force, self.coupling.work_by_plate = plain["coupling"]
+        self._amplitudes, self._disks = plain["amplitudes"], plain["disks"]
+        for name, rows in arrays.items():
+            self._blocks[name] = [rows]
+        clock, processor = plain["spent"]
+        self._started, self._spent = self._started - clock, self._spent - processor
+        self.coupling.loudspeaker_cost, self.sensor_cost, costs = plain["costs"]
+        self.grains.costs.update(costs)
+        return True
 
     def _summary(self) -> dict[str, Any]:
         costs = {"loudspeaker": self.coupling.loudspeaker_cost, "sensors and analysis": self.sensor_cost}
@@ -165,17 +223,21 @@ class PackingRun:
 
 
 def run_packing(grains: Grains, setup: Setup, seed: int, folder: Path, progress: Progress) -> None:
-    """Take `grains` through the protocol and write its folder, its tables after each interval."""
+    """Take `grains` through the protocol and write its folder, its tables after each interval; go on if it was begun.
+
+    Grains that cannot be written as bytes begin anew.
+    """
     run = PackingRun(grains, setup, seed, folder)
-    run.shake(1.0, setup.protocol.settling, progress)
-    for number, interval in enumerate(setup.protocol.intervals):
-        run.record(number, interval, progress)
+    if not (grains.can_serialise and run.resume()):
+        run.shake(1.0, setup.protocol.settling, progress)
+    for interval in setup.protocol.intervals[run.recorded :]:
+        run.record(interval, progress)
         run.write()
         progress(0)
-    (folder / UNFINISHED).replace(folder / FINISHED)
+    run.finish()
 
 
-def _record(coupling: Coupling, setup: Setup, interval: Interval, progress: Progress) -> Record:
+def _record(coupling: Coupling, setup: Setup, interval: Interval, progress: Callable[[int], None]) -> Record:
     grains, steps = coupling.grains, setup.steps_per_frame()
     work, received = coupling.work_by_plate, grains.energy_input()
     angles, positions, accelerations = [grains.angles()], [grains.positions()], []

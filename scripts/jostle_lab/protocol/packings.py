@@ -1,26 +1,22 @@
-"""Many packings in several processes, one seed each, with a progress bar; finished packings are not run again."""
+"""Many packings in several processes, one seed each, with a progress bar.
+
+What is finished is not run again, and a packing that was stopped goes on after its last finished amplitude.
+"""
 
 import json
-import os
-import queue
-import signal
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ProcessPoolExecutor
-from contextlib import contextmanager
 from dataclasses import asdict, dataclass
-from multiprocessing import active_children, get_context
 from pathlib import Path
-from typing import Any
-
-from tqdm import tqdm
 
 from jostle_lab.errors import LabError
 from jostle_lab.files import read_json, replace_text
-from jostle_lab.fmu.grains import Grains, GrainsFactory
-from jostle_lab.protocol.experiment import FINISHED, Setup, run_packing
-
-_reports: Any = None  # the queue of this worker process
-_grains: Grains | None = None  # those it shakes
+from jostle_lab.fmu.grains import GrainsFactory
+from jostle_lab.locks import held
+from jostle_lab.progress import progress
+from jostle_lab.protocol import checkpoint
+from jostle_lab.protocol.experiment import FINISHED, Setup
+from jostle_lab.protocol.now import Now
+from jostle_lab.protocol.workers import shake_all
+from jostle_lab.stopping import telling
 
 
 @dataclass(frozen=True)
@@ -39,31 +35,94 @@ class Plan:
         """Folder of one packing."""
         return self.results / "packings" / f"seed-{seed:04d}"
 
+    def is_finished(self, seed: int) -> bool:
+        """Whether a packing has gone through the protocol."""
+        return (self.packing_folder(seed) / FINISHED).exists()
 
-def run(plan: Plan, factory: GrainsFactory, on_interval: Callable[[], None] = lambda: None) -> None:
-    """Run every packing that is not there yet; `on_interval` is called when the tables of one have grown."""
-    _claim(plan)
-    todo = [seed for seed in plan.seeds if not (plan.packing_folder(seed) / FINISHED).exists()]
-    duration = plan.setup.protocol.duration()
-    finished = (len(plan.seeds) - len(todo)) * duration
-    reports = get_context("spawn").Queue()
-    with (
-        tqdm(
-            total=len(plan.seeds) * duration,
-            initial=finished,
-            unit="s",
-            mininterval=0.5,
-            desc=f"shaking {len(plan.seeds)} packing(s), simulated time",
-            disable=not plan.show_progress,
-        ) as bar,
-        _workers(min(plan.processes, max(len(todo), 1)), reports) as pool,
-    ):
-        with _no_interrupt():
-            jobs = [pool.submit(_work, factory, plan.setup, seed, plan.packing_folder(seed)) for seed in todo]
-        _wait(jobs, reports, bar, on_interval)
+    def seconds(self) -> int:
+        """Simulated time of all packings [s]."""
+        return len(self.seeds) * self.setup.protocol.duration()
+
+    def seconds_kept(self) -> int:
+        """Of these, what a run need not do again [s].
+
+        Raises LabError for a damaged checkpoint.
+        """
+        return sum(self._seconds_kept(seed) for seed in self.seeds)
+
+    def _seconds_kept(self, seed: int) -> int:
+        if self.is_finished(seed):
+            return self.setup.protocol.duration()
+        found = checkpoint.plain(self.packing_folder(seed))
+        return int(found["seconds"]) if found else 0
+
+    def kept(self) -> str:
+        """What is kept, and how to go on: a sentence for who stopped it."""
+        intervals, done = len(self.setup.protocol.intervals), 0
+        for seed in self.seeds:
+            found = None if self.is_finished(seed) else checkpoint.plain(self.packing_folder(seed))
+            done += intervals if self.is_finished(seed) else len(found["amplitudes"]) if found else 0
+        each = f"{intervals} for each of {len(self.seeds)} packings" if len(self.seeds) > 1 else "of one packing"
+        whole = f"{done} of {intervals * len(self.seeds)} amplitudes ({each})"
+        return f"{whole} are kept in {self.results}. The same command goes on from there."
 
 
-def _claim(plan: Plan) -> None:
+class Watcher:
+    """Told of what happens while packings are shaken; this one does nothing."""
+
+    def interval_done(self) -> None:
+        """The tables of a packing have grown."""
+
+    def now(self, now: Now) -> None:
+        """What the disks of a packing do."""
+
+    def tick(self, share: float) -> None:
+        """Some time has passed; `share` of the simulated time is done."""
+
+
+NOBODY = Watcher()
+
+
+def run(plan: Plan, factory: GrainsFactory, watcher: Watcher = NOBODY) -> None:
+    """Run every packing that is not there yet, or the rest of it.
+
+    Raises LabError for a folder in which another command runs, or which holds something else.
+    """
+    plan.results.mkdir(parents=True, exist_ok=True)
+    with held(plan.results, "run of packings"):
+        claim(plan)
+        run_in_held_folder(plan, factory, watcher)
+
+
+def run_in_held_folder(plan: Plan, factory: GrainsFactory, watcher: Watcher = NOBODY) -> None:
+    """As `run`, for a caller that holds the folder and has claimed it."""
+    jobs = [(seed, plan.packing_folder(seed)) for seed in plan.seeds if not plan.is_finished(seed)]
+    done, total = plan.seconds_kept(), plan.seconds()
+    if not jobs:
+        return
+    bar = progress(
+        total=total,
+        done=done,
+        unit="s of simulated time",
+        what=f"shaking {len(plan.seeds)} packings" if len(plan.seeds) > 1 else "shaking a packing",
+        show=plan.show_progress,
+    )
+
+    def report(what: int | Now) -> None:
+        nonlocal done
+        if isinstance(what, Now):
+            watcher.now(what)
+        elif what == 0:
+            watcher.interval_done()
+        else:
+            done += what
+            bar.update(what)
+
+    with telling(plan.kept), bar:
+        shake_all(jobs, plan.setup, factory, plan.processes, report, lambda: watcher.tick(done / total))
+
+
+def claim(plan: Plan) -> None:
     """Write what is being run, or refuse a folder that holds something else."""
     description = {**dict(plan.labels), "setup": json.loads(json.dumps(asdict(plan.setup)))}
     file = plan.results / "run.json"
@@ -73,68 +132,4 @@ def _claim(plan: Plan) -> None:
             f"{plan.results} holds results of other settings (see {file.name}). "
             "Choose another --results folder, or remove this one to start afresh."
         )
-    plan.results.mkdir(parents=True, exist_ok=True)
     replace_text(file, json.dumps(description, indent=2) + "\n")
-
-
-@contextmanager
-def _workers(count: int, reports: Any) -> Iterator[ProcessPoolExecutor]:
-    pool = ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=_attach, initargs=(reports,))
-    try:
-        yield pool
-    except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
-        for worker in active_children():
-            worker.terminate()
-        raise
-    pool.shutdown()
-
-
-@contextmanager
-def _no_interrupt() -> Iterator[None]:
-    """Processes that are started here never see Ctrl-C, of which each would print a traceback: they are terminated."""
-    handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, handler)
-
-
-def _attach(reports: Any) -> None:
-    global _reports  # noqa: PLW0603 - a queue can only be inherited, not sent with a job
-    _reports = reports
-    signal.signal(signal.SIGTERM, _end)
-
-
-def _end(*_: object) -> None:
-    """End this process at once, but remove what its FMU was unpacked into."""
-    if _grains is not None:
-        _grains.close()
-    os._exit(1)
-
-
-def _work(factory: GrainsFactory, setup: Setup, seed: int, folder: Path) -> None:
-    global _grains  # noqa: PLW0603 - what a signal must find
-    _grains = grains = factory(seed, setup.exchange.parameters)
-    try:
-        run_packing(grains, setup, seed, folder, _reports.put)
-    finally:
-        _grains = None
-        grains.close()
-
-
-def _wait(jobs: list["Future[None]"], reports: Any, bar: Any, on_interval: Callable[[], None]) -> None:
-    """Move the bar until every job is done; raise the first error."""
-    while True:
-        running = [job for job in jobs if not job.done()]
-        for job in jobs:
-            if job.done():
-                job.result()
-        try:
-            seconds = reports.get(timeout=0.2)
-            bar.update(seconds)
-            if seconds == 0:
-                on_interval()
-        except queue.Empty:
-            if not running:
-                return

@@ -8,8 +8,9 @@ import typer
 
 from jostle_lab import locate, options
 from jostle_lab.errors import LabError
+from jostle_lab.runs.build import Build
 from jostle_lab.runs.grid import ENGINES, make_grid, read_grid
-from jostle_lab.runs.limits import refuse_what_no_run_takes
+from jostle_lab.runs.limits import Parameters, of_package, of_program, refuse_what_no_run_takes, without_needless_seeds
 
 
 def sweep(
@@ -30,7 +31,10 @@ def sweep(
     results: Annotated[Path, typer.Option(help="Folder of the Parquet parts.")] = Path("results/sweep"),
     scheduler: options.SchedulerOption = None,
     processes: options.ProcessesOption = 2,
-    program: options.ProgramOption = None,
+    program: Annotated[
+        Path | None,
+        typer.Option(help="A native command line, such as that of another build, instead of the package jostle."),
+    ] = None,
     limit: Annotated[float | None, typer.Option(min=1e-3, help="Longest time on the clock of one run [s].")] = None,
     retry_failed: Annotated[bool, typer.Option("--retry-failed", help="Do failed runs again.")] = False,
     progress: options.ProgressOption = True,
@@ -42,7 +46,7 @@ def sweep(
     """
     from jostle_lab.runs.store import Store
     from jostle_lab.runs.sweep import Sweep, Workers
-    from jostle_lab.runs.worker import DONE, FAILED, Program
+    from jostle_lab.runs.worker import DONE, FAILED
 
     changes: dict[str, Any] = {"scene": scene, "engine": engine, "drive": drive, "seconds": seconds, "seeds": seeds}
     changes["set"] = dict(options.parameters(fixed))
@@ -50,17 +54,28 @@ def sweep(
     options.once("--grid", [name for name, _ in named])
     changes["grid"] = dict(named)
     grid = read_grid(file, changes) if file is not None else make_grid({}, changes, "sweep")
-    runs = grid.runs()
-    native = locate.program(program).resolve()
-    refuse_what_no_run_takes(native, runs)
-    whole = Program(str(native), locate.fingerprint(native), limit)
-    rows = Sweep(Store(results), whole, Workers(scheduler, processes), progress, retry_failed).run(runs)
+    build, known = _build(program, limit)
+    runs = without_needless_seeds(known, grid.runs())
+    refuse_what_no_run_takes(known, runs)
+    rows = Sweep(Store(results), build, Workers(scheduler, processes), progress, retry_failed).run(runs)
     states = Counter(row["state"] for row in rows.values())
     typer.echo(f"{len(rows)} runs in {results}: {states[DONE]} done, {states[FAILED]} failed")
     for row in [row for row in rows.values() if row["state"] == FAILED][:3]:
         typer.echo(f"failed: {row['command']}\n  {row['error']}", err=True)
     if states[FAILED]:
         raise SystemExit(1)
+
+
+def _build(program: Path | None, limit: float | None) -> tuple[Build, Parameters]:
+    """The package `jostle`, or a program if one is named; and what tells its parameters."""
+    if program is None:
+        from jostle_lab.runs.package import Package, installed_version
+
+        return Package(installed_version(), limit), of_package
+    from jostle_lab.runs.native import Program
+
+    native = locate.program(program).resolve()
+    return Program(str(native), locate.fingerprint(native), limit), of_program(native)
 
 
 def _split(option: str, text: str) -> tuple[str, str]:

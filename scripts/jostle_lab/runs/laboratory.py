@@ -1,6 +1,8 @@
 """Runs of the native command line: many at a time, each kept on disk by joblib and never done twice.
 
 A run is found again by its arguments and by the program itself: rebuild the program and everything is run anew.
+It is the program and not the Python package, as in sweeps: a study reads every row of every output, which the program
+writes in the form that is kept, and asks the program for the theory, too. So one fingerprint names all of a record.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -10,14 +12,15 @@ from pathlib import Path
 from typing import Any
 
 from joblib import Memory, Parallel, delayed
-from tqdm import tqdm
 
 from jostle_lab.locate import fingerprint
 from jostle_lab.programs import output_of
+from jostle_lab.progress import progress
 from jostle_lab.runs.dask_backend import dask_backend
 from jostle_lab.runs.kept import perform
 from jostle_lab.runs.records import NotKeptError, Record, Records
 from jostle_lab.runs.run import Run
+from jostle_lab.stopping import telling
 from jostle_lab.tables import Table, parse_csv
 
 
@@ -66,10 +69,11 @@ class Laboratory:
                 tables[run], self._seconds[run.key()] = kept.table, kept.seconds
         missing = [run for run in wanted if run not in tables]
         self._refuse_if_frozen(len(missing), title)
-        for run, (table, seconds) in zip(missing, self._performed(missing, title), strict=True):
-            tables[run], self._seconds[run.key()] = table, seconds
-            if self.records is not None:
-                tables[run] = self.records.add(run.key(), self.version, seconds, table).table
+        with telling(lambda: f"Finished runs are kept in {self.kept}. The same command does the others."):
+            for run, (table, seconds) in zip(missing, self._performed(missing, title), strict=True):
+                tables[run], self._seconds[run.key()] = table, seconds
+                if self.records is not None:
+                    tables[run] = self.records.add(run.key(), self.version, seconds, table).table
         return {run: tables[run] for run in wanted}
 
     def _recorded(self, run: Run) -> Record | None:
@@ -111,7 +115,7 @@ class Laboratory:
             jobs = (delayed(self._kept_run)(self.program, self.version, run.arguments()) for run in runs)
             threads = None if self.scheduler else "threads"
             done = Parallel(self.processes, prefer=threads, return_as="generator")(jobs)
-            yield from tqdm(done, total=len(runs), unit="run", desc=title, disable=not self.show_progress)
+            yield from progress(done, total=len(runs), unit="runs", what=title, show=self.show_progress)
 
     def theory(self, scene: str, quantity: str, **settings: Sequence[float] | float) -> Table:
         """What `jostle theory` prints; `__` in a name stands for a dot. All combinations, the first name slowest."""

@@ -5,7 +5,6 @@ one sweep writes at a time. Needs: a local file system that renames atomically a
 with an underscore: readers of a folder of Parquet pass such files over.
 """
 
-import fcntl
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,12 +12,13 @@ from pathlib import Path
 import polars as pl
 
 from jostle_lab.errors import LabError
+from jostle_lab.locks import held
 from jostle_lab.tables import Row, replace_parquet
 
 MANY_PARTS = 50
 """Parts from which on they are joined when a sweep begins or ends."""
 
-LOCK, DRAFT = "_lock", "_part.draft"
+DRAFT = "_part.draft"
 
 
 class Store:
@@ -53,11 +53,7 @@ class Store:
     @contextmanager
     def writing(self) -> Iterator[None]:
         """Hold the folder against other sweeps; the lock goes with the process, however it ends."""
-        with (self.folder / LOCK).open("w") as lock:
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                raise LabError(f"Another sweep writes to {self.folder}. Wait for it, or take another folder.") from None
+        with held(self.folder, "sweep"):
             self._remove_names_of_before()
             self._join_many()
             yield

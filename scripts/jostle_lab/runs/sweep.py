@@ -1,18 +1,22 @@
 """Runs onto workers, rows into the store as they come: joblib on this machine, Dask on others."""
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from typing import Any
 
 from joblib import Parallel, delayed
-from tqdm import tqdm
 
 from jostle_lab.errors import LabError
+from jostle_lab.progress import progress
+from jostle_lab.runs.build import Build, key
 from jostle_lab.runs.dask_backend import client, distributed
+from jostle_lab.runs.package import CHILDREN
 from jostle_lab.runs.run import Run
 from jostle_lab.runs.store import Store
-from jostle_lab.runs.worker import FAILED, Program, failure, perform
+from jostle_lab.runs.worker import FAILED, failure, perform
+from jostle_lab.stopping import telling
 from jostle_lab.tables import Row
 
 BETWEEN_PARTS = 1.0
@@ -32,17 +36,20 @@ class Workers:
     patience: float = 10.0
     """How long the scheduler may take to answer [s]."""
 
-    def rows(self, program: Program, runs: Sequence[Run]) -> Iterator[Row]:
+    def rows(self, build: Build, runs: Sequence[Run]) -> Generator[Row]:
         """Rows in the order in which the runs end. Raises LabError for a wrong program or a lost scheduler."""
         if self.scheduler is not None:
             with client(self.scheduler, self.patience) as connected:
-                yield from self._remote_rows(connected, program, runs)
+                yield from self._remote_rows(connected, build, runs)
             return
-        # Threads of this process: each waits for a program of its own, so processes would only cost time and memory.
+        # Threads of this process: each waits for a process of its own.
         parallel = Parallel(self.processes, prefer="threads", return_as="generator_unordered")
-        yield from parallel(delayed(perform)(program, run) for run in runs)
+        try:
+            yield from parallel(delayed(perform)(build, run) for run in runs)
+        finally:
+            CHILDREN.end()
 
-    def _remote_rows(self, connected: Any, program: Program, runs: Sequence[Run]) -> Iterator[Row]:
+    def _remote_rows(self, connected: Any, build: Build, runs: Sequence[Run]) -> Generator[Row]:
         """Only so many runs are with the scheduler at a time."""
         left = iter(runs)
         of_future: dict[Any, Run] = {}
@@ -51,7 +58,7 @@ class Workers:
             run = next(left, None)
             if run is None:
                 return None
-            future = connected.submit(perform, program, run, key=f"jostle-{program.key(run)}", pure=False)
+            future = connected.submit(perform, build, run, key=f"jostle-{key(build, run)}", pure=False)
             of_future[future.key] = run
             return future
 
@@ -61,10 +68,10 @@ class Workers:
             run = of_future.pop(future.key)
             if (another := submit()) is not None:
                 queue.add(another)
-            yield _row_of(future, program, run)
+            yield _row_of(future, build, run)
 
 
-def _row_of(future: Any, program: Program, run: Run) -> Row:
+def _row_of(future: Any, build: Build, run: Run) -> Row:
     """Row of a future that is done. A run whose workers die fails; a wrong program or a lost scheduler ends all."""
     if future.status == "finished":
         row: Row = future.result()
@@ -74,7 +81,7 @@ def _row_of(future: Any, program: Program, run: Run) -> Row:
     error = future.exception()
     if isinstance(error, LabError):
         raise error
-    return failure(program, run, f"{type(error).__name__}: {error}")
+    return failure(build, run, f"{type(error).__name__}: {error}")
 
 
 @dataclass(frozen=True)
@@ -82,30 +89,36 @@ class Sweep:
     """What a sweep needs beside its runs."""
 
     store: Store
-    program: Program
+    build: Build
     workers: Workers = Workers()
     show_progress: bool = True
     retry_failed: bool = False
 
     def run(self, runs: Sequence[Run], title: str = "sweep") -> dict[Run, Row]:
         """Every run's row; what the store has already is not done again. Failed runs have rows that say so."""
-        keys = {run: self.program.key(run) for run in dict.fromkeys(runs)}
+        keys = {run: key(self.build, run) for run in dict.fromkeys(runs)}
         with self.store.writing():
             kept = self.store.rows()
             missing = [run for run, key in keys.items() if self._wanted(kept.get(key))]
             failed = sum(kept[key]["state"] == FAILED for key in keys.values() if not self._wanted(kept.get(key)))
-            with tqdm(
+            bar = progress(
                 total=len(keys),
-                initial=len(keys) - len(missing),
-                unit="run",
-                desc=title,
-                disable=not self.show_progress,
+                done=len(keys) - len(missing),
+                unit="runs",
+                what=title,
+                show=self.show_progress,
                 postfix={"failed": failed},
-            ) as bar:
+            )
+            with telling(lambda: self._kept(keys)), bar:
                 if missing:
                     self._perform(missing, bar, failed)
                     kept = self.store.rows()
         return {run: kept[key] for run, key in keys.items()}
+
+    def _kept(self, keys: Mapping[Run, str]) -> str:
+        rows = self.store.rows()
+        there = sum(key in rows for key in keys.values())
+        return f"{there} of {len(keys)} runs are kept in {self.store.folder}. The same command does the others."
 
     def _wanted(self, row: Row | None) -> bool:
         return row is None or (self.retry_failed and row["state"] == FAILED)
@@ -115,13 +128,14 @@ class Sweep:
         rows: list[Row] = []
         written = time.monotonic()
         try:
-            for row in self.workers.rows(self.program, missing):
-                rows.append(row)
-                failed += row["state"] == FAILED
-                bar.set_postfix(failed=failed, refresh=False)
-                bar.update()
-                if time.monotonic() - written >= BETWEEN_PARTS:
-                    self.store.append(rows)
-                    rows, written = [], time.monotonic()
+            with closing(self.workers.rows(self.build, missing)) as done:  # so that no run goes on when this ends
+                for row in done:
+                    rows.append(row)
+                    failed += row["state"] == FAILED
+                    bar.set_postfix(failed=failed, refresh=False)
+                    bar.update()
+                    if time.monotonic() - written >= BETWEEN_PARTS:
+                        self.store.append(rows)
+                        rows, written = [], time.monotonic()
         finally:
             self.store.append(rows)

@@ -1,6 +1,7 @@
 """Grains that need no FMU, with the same interface: a lump on a spring, and one that also turns sixty disks."""
 
 import copy
+import pickle
 from typing import Any
 
 import numpy as np
@@ -90,6 +91,14 @@ class SpringLump:
 
     def discard(self, saved: Any) -> None:
         pass
+
+    can_serialise = True
+
+    def to_bytes(self) -> bytes:
+        return pickle.dumps(self.save())
+
+    def from_bytes(self, state: bytes) -> None:
+        self.restore(pickle.loads(state))
 
     def close(self) -> None:
         pass

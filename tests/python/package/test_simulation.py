@@ -10,6 +10,7 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import fmpy
 import numpy as np
@@ -17,6 +18,8 @@ import pytest
 import xarray as xr
 
 import jostle
+from jostle._core import Core
+from jostle.variables import find, grouped
 
 LONG = 40.0
 """A step of half a second of processor time, so that other threads come to their turn meanwhile [s]."""
@@ -220,3 +223,22 @@ def test_contacts_carry_the_weight() -> None:
 def test_impacts_are_no_contacts() -> None:
     with pytest.raises(jostle.CallError, match=r"packing, engine event-driven.*no list contacts"):
         jostle.Simulation("packing", engine="event-driven").contacts()
+
+
+def test_a_parameter_beside_outputs_with_numbers_of_the_same_name_keeps_its_name() -> None:
+    sim = jostle.Simulation("three_disk", drive="random-supports", **{"support.angle": 0.6})
+    assert sim["support.angle"] == 0.6 and sim.variables.loc["support.angle", "size"] == 1
+    data = sim.run(0.01, every=0.01)
+    assert data.attrs["support.angle"] == 0.6
+    assert data["support[1].angle"].dims == ("time",) and data["support[1].angle"].values[-1] == sim["support[1].angle"]
+
+
+SCENES = list(jostle.scenes()[["scene", "engine", "drive"]].itertuples(index=False))
+
+
+@pytest.mark.parametrize("row", SCENES, ids="-".join)
+def test_every_element_of_every_scene_is_found_by_its_name(row: Any) -> None:
+    names = [known[0] for known in Core(row.scene, row.engine, row.drive, None).variables()]
+    variables = grouped(Core(row.scene, row.engine, row.drive, None).variables())
+    found = [find(variables, name, row.scene) for name in names]
+    assert [variable.positions[element or 0] for variable, element in found] == list(range(len(names)))

@@ -12,12 +12,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
-from jostle_lab.demos.packing.power_laws import regression_of, slope_text
+from jostle_lab.demos.packing.power_laws import ENOUGH, regression_of, slope_of, slope_text
 from jostle_lab.plots.style import SENSE, WIDTH, house_style, save
+from jostle_lab.protocol.now import Now
 from jostle_lab.protocol.results import Results
 from jostle_lab.sensors.spectral_amplitude import spectral_amplitude
 from jostle_lab.statistics.regression import THESIS_SLOPES, Regression, within
 from jostle_lab.statistics.rotation import RPM
+from jostle_lab.tables import Row
 
 GAMMA_DRAWN = 2.0
 """Of the picture of a packing, as near as there is one."""
@@ -83,25 +85,50 @@ def angular_paths(results: Results) -> Figure:
 
 def packing(results: Results) -> Figure:
     """The first packing at the Gamma nearest to `GAMMA_DRAWN`, disks coloured by the sense of rotation."""
-    rows = results.amplitudes_of(results.seeds[0])
-    row = min(rows, key=lambda r: abs(r["gamma_true"] - GAMMA_DRAWN))
+    row = packing_drawn(results)
     disks = results.disks_of(results.seeds[0], row["amplitude"])
-    velocities = np.array([disk["mean_velocity"] for disk in disks]) / RPM
+    return packing_of(
+        results.box_width(),
+        np.array([(disk["x"], disk["y"]) for disk in disks]),
+        np.array([disk["radius"] for disk in disks]),
+        np.array([disk["mean_velocity"] for disk in disks]),
+        rf"$\Gamma$ = {row['gamma_true']:.2f}, packing of seed {results.seeds[0]}",
+    )
+
+
+def packing_drawn(results: Results) -> Row:
+    """The amplitude that `packing` draws."""
+    return min(results.amplitudes_of(results.seeds[0]), key=lambda row: abs(row["gamma_true"] - GAMMA_DRAWN))
+
+
+def packing_now(now: Now, gamma: float) -> Figure:
+    """A packing in the middle of an interval; `gamma` is that of the empty base."""
+    title = rf"A = {now.amplitude:.2f}, $\Gamma$ near {gamma:.2g}: {now.doing}, mean of the last {now.seconds} s"
+    return packing_of(now.box_width, now.positions, now.radii, now.velocities, title)
+
+
+def packing_of(
+    box_width: float,
+    positions: NDArray[np.float64],
+    radii: NDArray[np.float64],
+    mean_velocities: NDArray[np.float64],
+    title: str,
+) -> Figure:
+    """Disks in their box [m], coloured by mean angular velocity [rad/s]."""
+    velocities = mean_velocities / RPM
     norm = _sense_norm(velocities)
-    half = 100.0 * 0.5 * results.box_width()
-    top = max(100.0 * (disk["y"] + disk["radius"]) for disk in disks) + 1.5
+    half = 100.0 * 0.5 * box_width
+    top = 100.0 * float(np.max(positions[:, 1] + radii)) + 1.5
     drawn = 0.68 * WIDTH
     figure = Figure(figsize=(WIDTH * 0.92, drawn * (top + 1.0) / (2.0 * half + 2.0) + 0.75), layout="constrained")
     axes = figure.subplots()
-    for disk, velocity in zip(disks, velocities, strict=True):
-        centre = (100.0 * disk["x"], 100.0 * disk["y"])
-        axes.add_patch(
-            Circle(centre, 100.0 * disk["radius"], facecolor=SENSE(norm(velocity)), edgecolor="0.15", linewidth=0.6)
-        )
-        _turning_arrow(axes, centre, 100.0 * disk["radius"], velocity / norm.vmax if norm.vmax else 0.0)
+    for place, radius, velocity in zip(100.0 * positions, 100.0 * radii, velocities, strict=True):
+        centre = (float(place[0]), float(place[1]))
+        axes.add_patch(Circle(centre, radius, facecolor=SENSE(norm(velocity)), edgecolor="0.15", linewidth=0.6))
+        _turning_arrow(axes, centre, radius, velocity / norm.vmax if norm.vmax else 0.0)
     axes.plot([-half, -half, half, half], [top, 0.0, 0.0, top], color="0.1", linewidth=1.6, solid_joinstyle="miter")
     axes.set(xlim=(-half - 1.0, half + 1.0), ylim=(-1.0, top), aspect="equal", xlabel="x [cm]", ylabel="y [cm]")
-    axes.set_title(rf"$\Gamma$ = {row['gamma_true']:.2f}, packing of seed {results.seeds[0]}")
+    axes.set_title(title)
     for side in ("left", "bottom"):
         axes.spines[side].set_visible(False)
     scale = ScalarMappable(norm, SENSE)
@@ -170,9 +197,8 @@ def rotation_against_gamma(results: Results) -> Figure:
         gamma, square = curve.gamma[positive], curve.values[positive]
         left.loglog(gamma, square, marker, color=colour, ms=4, mfc="none", mew=0.7, label=name)
         if curve.neighbours > 1:
-            left.errorbar(
-                curve.at, curve.curve, curve.error, ls=line, color=colour, lw=0.8, elinewidth=0.7, capsize=1.5
-            )
+            error = curve.error if curve.neighbours >= ENOUGH else None
+            left.errorbar(curve.at, curve.curve, error, ls=line, color=colour, lw=0.8, elinewidth=0.7, capsize=1.5)
     _power_laws(left, measured)
     left.set(xlabel=r"$\Gamma$", ylabel=r"$\langle\omega^2\rangle$ [RPM$^2$]")
     _plain_ticks(left, column["gamma_true"])
@@ -205,7 +231,7 @@ def _power_laws(axes: Any, curve: Regression) -> None:
             continue
         x, y = np.log(curve.at[inside]), np.log(curve.curve[inside])
         ends = np.array([x.min() - 0.1, x.max() + 0.1])
-        ours = curve.slope(range_)
+        ours = slope_of(curve, range_)
         for exponent, colour, name in (
             (ours.mean, "#c0272d", f"slope {slope_text(ours)} (measured)"),
             (slope, "0.5", f"slope {slope:.2f} (thesis)"),

@@ -1,11 +1,12 @@
-"""A results folder in, a page of numbers out."""
+"""A results folder in, tables of numbers out, and a page of them in Markdown; `page` has them in HTML."""
 
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import polars as pl
 
-from jostle_lab.demos.packing.power_laws import power_law_table
+from jostle_lab.demos.packing.power_laws import power_law_note, power_law_table
+from jostle_lab.files import replace_text
 from jostle_lab.protocol.pictures import TABLE
 from jostle_lab.protocol.results import Results
 from jostle_lab.sensors.camera import Camera
@@ -13,37 +14,49 @@ from jostle_lab.statistics.rotation import RPM
 from jostle_lab.tables import Row, markdown_table, read_table
 
 
+class Sheet(NamedTuple):
+    """A table of texts."""
+
+    header: list[str]
+    rows: list[list[str]]
+
+    def markdown(self) -> str:
+        """In Markdown."""
+        return markdown_table(self.header, self.rows)
+
+
 def write_report(results: Results) -> Path:
     """Write `numbers.md`; return its path."""
     frame_rate = results.setup["camera"]["frame_rate"]
     sections = [
         "# Numbers",
-        _setting(results),
+        "\n".join(f"- {name}: {value}" for name, value in setting(results)),
         "## Drive: true, measured, bias",
-        _drive_table(results),
+        drive_table(results).markdown(),
         "True: Fourier component of the base acceleration at the drive frequency. Peak: largest sample of the base "
         "acceleration, shocks included. Measured: sqrt(2) SD in a 10 Hz window, mean of two sensors. Corrected: the "
         "noise floor of the side bands removed. Coupling error: work done by the plate less work received by the "
         "grains, over the latter.",
         "## Rotation",
-        _rotation_table(results),
+        rotation_table(results).markdown(),
         f"Camera: one frame in {1.0 / frame_rate:g} s; it cannot resolve more than "
         f"{Camera(frame_rate).alias_limit() / RPM:g} RPM. Aliased: disks whose excursion by camera is not the true "
         "one. A driftless random walk has rho^2 = 0.43 on average. Largest move: of the centre of a disk while "
         "recording.",
-        _aliased_disks(results),
+        *_aliased_text(results),
         "## Power laws",
-        power_law_table(results),
-        *_pictures(results),
+        _power_law_text(results),
+        *_pictures_text(results),
         "## Cost of the loop",
-        _cost_table(results),
+        _cost_text(results),
     ]
     path = results.folder / "numbers.md"
-    path.write_text("\n\n".join(sections) + "\n")
+    replace_text(path, "\n\n".join(sections) + "\n")
     return path
 
 
-def _setting(results: Results) -> str:
+def setting(results: Results) -> list[tuple[str, str]]:
+    """What was shaken, by what, watched by what: names and texts."""
     summary, setup = results.summaries[0], results.setup
     driver: dict[str, Any] = summary["driver"]
     sensor: dict[str, Any] = setup["accelerometer"]
@@ -63,8 +76,12 @@ def _setting(results: Results) -> str:
             f"noise density {1e6 * sensor['noise_density']:g} ug/sqrt(Hz), low-pass {bandwidth}",
         ),
     ]
-    rows += [(name, str(value)) for name, value in results.run.items() if name != "setup"]
-    return "\n".join(f"- {name}: {value}" for name, value in rows)
+    return rows + labels(results.run)
+
+
+def labels(run: dict[str, Any]) -> list[tuple[str, str]]:
+    """What else identifies a run."""
+    return [(name, str(value)) for name, value in run.items() if name != "setup"]
 
 
 def _by_amplitude(results: Results) -> list[Row]:
@@ -74,7 +91,8 @@ def _by_amplitude(results: Results) -> list[Row]:
     return groups.sort("amplitude", descending=True).to_dicts()
 
 
-def _drive_table(results: Results) -> str:
+def drive_table(results: Results) -> Sheet:
+    """Gamma, true and measured, by amplitude."""
     header = [
         "A",
         "true Gamma",
@@ -105,10 +123,11 @@ def _drive_table(results: Results) -> str:
         ]
         for mean in _by_amplitude(results)
     ]
-    return markdown_table(header, rows)
+    return Sheet(header, rows)
 
 
-def _rotation_table(results: Results) -> str:
+def rotation_table(results: Results) -> Sheet:
+    """Rotation, true and by camera, by amplitude."""
     header = [
         "A",
         "true Gamma",
@@ -141,15 +160,11 @@ def _rotation_table(results: Results) -> str:
                 f"{1000 * mean['largest_move']:.1f}",
             ]
         )
-    return markdown_table(header, rows)
+    return Sheet(header, rows)
 
 
-def _aliased_disks(results: Results, shown: int = 12) -> str:
-    """Which disks the camera has wrong, and by how much."""
-    wrong = results.disks.filter(pl.col("aliased") == 1).sort(pl.col("mean_velocity").abs(), descending=True)
-    if wrong.is_empty():
-        return "The camera measures the excursion of every disk correctly."
-    header = ["seed", "A", "disk", "true [RPM]", "by camera [RPM]"]
+def aliased_table(results: Results, shown: int = 12) -> Sheet:
+    """Which disks the camera has wrong, and by how much: the fastest of them."""
     rows = [
         [
             f"{disk['seed']}",
@@ -158,17 +173,37 @@ def _aliased_disks(results: Results, shown: int = 12) -> str:
             f"{disk['mean_velocity'] / RPM:+.2f}",
             f"{disk['camera_velocity'] / RPM:+.2f}",
         ]
-        for disk in wrong.head(shown).to_dicts()
+        for disk in _aliased(results).head(shown).to_dicts()
     ]
-    title = f"The camera has {len(wrong)} of {len(results.disks)} excursions wrong; the fastest:"
-    return f"{title}\n\n{markdown_table(header, rows)}"
+    return Sheet(["seed", "A", "disk", "true [RPM]", "by camera [RPM]"], rows)
 
 
-def _pictures(results: Results) -> list[str]:
+def _aliased(results: Results) -> pl.DataFrame:
+    return results.disks.filter(pl.col("aliased") == 1).sort(pl.col("mean_velocity").abs(), descending=True)
+
+
+def aliased_count(results: Results) -> str:
+    """How many excursions the camera has wrong."""
+    wrong = len(_aliased(results))
+    if not wrong:
+        return "The camera measures the excursion of every disk correctly."
+    return f"The camera has {wrong} of {len(results.disks)} excursions wrong; the fastest:"
+
+
+def _aliased_text(results: Results) -> list[str]:
+    table = aliased_table(results)
+    return [aliased_count(results), *([table.markdown()] if table.rows else [])]
+
+
+def _power_law_text(results: Results) -> str:
+    return f"{Sheet(*power_law_table(results)).markdown()}\n\n{power_law_note(results)}"
+
+
+def pictures_table(results: Results) -> Sheet | None:
     """What the pictures gave, if there are any."""
     files = [results.folder_of(seed) / TABLE for seed in results.seeds]
     if not all(file.exists() for file in files):
-        return []
+        return None
     frame = pl.concat([read_table(file) for file in files]).group_by("amplitude").mean()
     rows = [
         [
@@ -183,14 +218,22 @@ def _pictures(results: Results) -> list[str]:
         for row in frame.sort("amplitude", descending=True).to_dicts()
     ]
     header = ["A", "<omega^2> [RPM^2]", "<rho^2>", "<sigma_a>", "error of the angle [degrees]", "swapped", "lost"]
-    text = (
-        "Marks found in pictures of the packing, by threshold and ellipse, and followed by nearest neighbour. Swapped: "
-        "disks that are taken for another one. Lost: marks that were not found, for each packing."
-    )
-    return ["## By pictures", markdown_table(header, rows), text]
+    return Sheet(header, rows)
 
 
-def _cost_table(results: Results) -> str:
+PICTURES_NOTE = (
+    "Marks found in pictures of the packing, by threshold and ellipse, and followed by nearest neighbour. Swapped: "
+    "disks that are taken for another one. Lost: marks that were not found, for each packing."
+)
+
+
+def _pictures_text(results: Results) -> list[str]:
+    table = pictures_table(results)
+    return ["## By pictures", table.markdown(), PICTURES_NOTE] if table else []
+
+
+def cost_table(results: Results) -> Sheet:
+    """Where the time of a worker goes."""
     simulated = sum(s["simulated_seconds"] for s in results.summaries)
     steps = sum(s["communication_steps"] for s in results.summaries)
     wall = sum(s["wall_seconds"] for s in results.summaries)
@@ -203,5 +246,14 @@ def _cost_table(results: Results) -> str:
         [name, f"{1e3 * value / simulated:.2f}", f"{1e6 * value / steps:.2f}", f"{100 * value / wall:.1f} %"]
         for name, value in [*costs.items(), ("all", wall)]
     ]
-    table = markdown_table(["part", "ms per simulated second", "us per step", "share"], rows)
-    return f"{table}\n\nOne process simulates {simulated / wall:.2f} s in a second."
+    return Sheet(["part", "ms per simulated second", "us per step", "share"], rows)
+
+
+def speed(results: Results) -> str:
+    """Of one worker."""
+    simulated, wall = (sum(s[name] for s in results.summaries) for name in ("simulated_seconds", "wall_seconds"))
+    return f"One process simulates {simulated / wall:.2f} s in a second."
+
+
+def _cost_text(results: Results) -> str:
+    return f"{cost_table(results).markdown()}\n\n{speed(results)}"

@@ -16,7 +16,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
-from tqdm import tqdm
 
 from jostle_lab.coupling.master import Coupling
 from jostle_lab.demos.ratchet.controller import GammaController
@@ -25,6 +24,7 @@ from jostle_lab.fmu.ratchet import FmuRatchet
 from jostle_lab.loudspeaker.model import Loudspeaker
 from jostle_lab.plots.curves import velocity_axes
 from jostle_lab.plots.style import WIDTH
+from jostle_lab.progress import progress
 from jostle_lab.statements import Product, Statement, verdict
 from jostle_lab.statistics.estimates import Estimate, sign_changes, zero_crossings
 
@@ -144,7 +144,7 @@ def sweep(fmu: Path, plan: Plan, show_progress: bool) -> Sweep:
     grains = FmuRatchet(fmu, {**PARAMETERS, "seed": plan.seed})
     try:
         rig = Rig(grains, plan)
-        bar = tqdm(plan.frequencies, unit="Hz", desc="ratchet demo", disable=not show_progress)
+        bar = progress(plan.frequencies, unit="frequencies", what="ratchet demo", show=show_progress)
         plateaus = [rig.plateau(frequency, plan.seconds) for frequency in bar]
     finally:
         grains.close()

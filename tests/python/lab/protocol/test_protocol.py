@@ -15,7 +15,7 @@ from jostle_lab.errors import LabError
 from jostle_lab.files import replace_text
 from jostle_lab.protocol import intervals as protocol
 from jostle_lab.protocol.experiment import Setup
-from jostle_lab.protocol.packings import Plan, run
+from jostle_lab.protocol.packings import Plan, Watcher, run
 from jostle_lab.protocol.pictures import Processing, process
 from jostle_lab.protocol.results import Results
 from jostle_lab.tables import read_table
@@ -116,19 +116,27 @@ def test_both_sensors_are_in_the_table(finished):
     assert Results(finished).summaries[0]["processor_seconds"] > 0.0
 
 
+class DrawsOnce(Watcher):
+    def __init__(self, folder):
+        self.folder, self.pictures, self.intervals, self.seen = folder, [], [], []
+
+    def interval_done(self):
+        self.intervals.append(len(list(self.folder.glob("packings/*/packing.json"))))
+        if not self.pictures:
+            self.pictures.append(draw("packing.png", Results(self.folder, unfinished=True)))
+
+    def now(self, now):
+        self.seen.append(now)
+
+
 def test_a_picture_can_be_drawn_after_the_first_interval(tmp_path):
-    pictures, intervals = [], []
-
-    def draw_once():
-        intervals.append(len(list(tmp_path.glob("packings/*/packing.json"))))
-        if not pictures:
-            pictures.append(draw("packing.png", Results(tmp_path, unfinished=True)))
-
-    run(plan(tmp_path, processes=1), make_turning_lump, draw_once)
-    assert len(intervals) == 2 * 2
-    assert intervals[0] == 0  # no packing was finished when the picture was drawn
-    assert pictures[0].stat().st_size > 10_000
-    assert list(tmp_path.rglob("unfinished.json")) == []
+    watcher = DrawsOnce(tmp_path)
+    run(plan(tmp_path, processes=1), make_turning_lump, watcher)
+    assert len(watcher.intervals) == 2 * 2
+    assert watcher.intervals[0] == 0  # no packing was finished when the picture was drawn
+    assert watcher.pictures[0].stat().st_size > 10_000
+    for left in ("unfinished.json", "checkpoint.npz", "*.draft"):
+        assert list(tmp_path.rglob(left)) == []
 
 
 def test_finished_packings_are_not_run_again(finished):

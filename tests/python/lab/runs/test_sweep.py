@@ -4,23 +4,32 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 
+import pandas as pd
 import polars as pl
 import pytest
-from conftest import PROGRAM
 from distributed import LocalCluster
+from typer.testing import CliRunner
 
+from jostle_lab.cli import application
 from jostle_lab.errors import LabError
 from jostle_lab.locate import fingerprint
+from jostle_lab.runs.build import Build
+from jostle_lab.runs.child import Children
 from jostle_lab.runs.command import _axis
+from jostle_lab.runs.command import sweep as command_sweep
 from jostle_lab.runs.grid import Grid, make_grid, read_grid
-from jostle_lab.runs.limits import parameters, refuse_what_no_run_takes
+from jostle_lab.runs.limits import of_package, of_program, refuse_what_no_run_takes
+from jostle_lab.runs.native import Program
+from jostle_lab.runs.package import Package, installed_version
 from jostle_lab.runs.run import Run
 from jostle_lab.runs.store import DRAFT, MANY_PARTS, Store
 from jostle_lab.runs.sweep import Sweep, Workers
-from jostle_lab.runs.worker import DONE, FAILED, Program
+from jostle_lab.runs.worker import DONE, FAILED
 
 SPEC = """
 scene = "ratchet"
@@ -37,12 +46,29 @@ disks = [10, 20]
 
 
 @pytest.fixture(scope="module")
+def package() -> Package:
+    return Package(installed_version())
+
+
+@pytest.fixture(scope="module")
 def program(jostle: Path) -> Program:
     return Program(str(jostle), fingerprint(jostle))
 
 
-def sweep(folder: Path, program: Program, **others: object) -> Sweep:
-    return Sweep(Store(folder), program, show_progress=False, **others)  # type: ignore[arg-type]
+@pytest.fixture(params=["package", "program"])
+def build(request: pytest.FixtureRequest) -> Build:
+    found: Build = request.getfixturevalue(request.param)
+    return found
+
+
+def sweep(folder: Path, build: Build, **others: object) -> Sweep:
+    return Sweep(Store(folder), build, show_progress=False, **others)  # type: ignore[arg-type]
+
+
+def numbers(row: dict[str, object]) -> dict[str, object]:
+    """What two builds, or two machines, have in common."""
+    others = ("key", "program", "host", "finished", "processor_seconds", "clock_seconds")
+    return {name: value for name, value in row.items() if name not in others and value is not None}
 
 
 def test_a_grid_is_every_combination_with_every_seed(tmp_path: Path) -> None:
@@ -100,33 +126,39 @@ def test_axes_of_the_command_line() -> None:
         (["--grid", "drive.frequncy=15,20"], "Did you mean drive.frequency?"),
         (["--set", "frequency=15"], "Did you mean drive.frequency?"),
         (["--grid", "drive.frequency=15,-1"], "drive.frequency = -1 is outside [0, 1e+06]"),
-        (["--grid", "disks=10,9999999"], "--disks = 9999999 is not allowed: from 1 to"),
-        (["--engine", "event-drvien"], "Did you mean event-driven?"),
+        (["--grid", "disks=10,9999999"], "disks = 9999999 is not allowed: 1 to"),
+        (["--engine", "event-drvien"], "engine = event-drvien is not allowed: one of: event-driven"),
         (["--drive", "wind"], "one of: input, sine"),
         (["--grid", "seed=1,2"], "seed is neither set nor on the grid"),
         (["--set", "gravity=1", "--set", "gravity=2"], "--set gravity is given more than once"),
         (["--grid", "gravity=1", "--grid", "gravity=2"], "--grid gravity is given more than once"),
     ],
 )
-def test_a_grid_that_every_run_would_refuse_is_refused_once(
-    options: list[str], message: str, jostle: Path, tmp_path: Path
-) -> None:
-    words = [sys.executable, "-m", "jostle_lab", "sweep", "--scene", "ratchet", "--seconds", "0.01", *options]
-    words += ["--program", str(jostle), "--results", str(tmp_path / "sweep"), "--no-progress"]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    assert done.returncode == 2, done.stderr
-    assert done.stderr.count(message) == 1, done.stderr
+def test_a_grid_that_every_run_would_refuse_is_refused_once(options: list[str], message: str, tmp_path: Path) -> None:
+    words = ["sweep", "--scene", "ratchet", "--seconds", "0.01", *options, "--results", str(tmp_path / "sweep")]
+    refused = CliRunner().invoke(application("", command_sweep), words).exception
+    assert isinstance(refused, LabError) and message in str(refused)
     assert not (tmp_path / "sweep").exists()  # nothing was run
 
 
-def test_ranges_are_those_of_the_program(jostle: Path) -> None:
-    (run,) = Grid("packing", 1.0).runs()
-    known = parameters(jostle, run)
-    assert known["contact.friction"] == (0.0, 1e6)
-    assert "disk.angle[1]" not in known
-    refuse_what_no_run_takes(jostle, [run])
-    (hard,) = Grid("packing", 1.0, engine="event-driven").runs()
-    assert parameters(jostle, hard)["base.model"] == (1, 2)  # an enumeration, by number
+@pytest.mark.parametrize(
+    ("scene", "engine"), [("packing", "molecular-dynamics"), ("packing", "event-driven"), ("wedge", "map")]
+)
+def test_package_and_program_tell_the_same_ranges(scene: str, engine: str, jostle: Path) -> None:
+    (run,) = Grid(scene, 1.0, engine=engine).runs()
+    known, told = of_package(run), of_program(jostle)(run)
+    assert known.keys() == told.keys()
+    # The program prints six digits.
+    assert all(known[name] == pytest.approx(told[name], rel=1e-4) for name in known if abs(told[name][1]) < 1e300)
+    refuse_what_no_run_takes(of_package, [run])
+
+
+def test_ranges_of_numbers_of_options_and_of_no_outputs() -> None:
+    (run,) = Grid("packing", 1.0, engine="event-driven").runs()
+    known = of_package(run)
+    assert known["gravity"] == (0.0, 1e4)
+    assert known["base.model"] == (1, 2)  # an enumeration, by number
+    assert "disk.angle" not in known and "disk.angle[1]" not in known
 
 
 def test_the_last_row_of_a_run_counts_and_columns_may_differ(tmp_path: Path) -> None:
@@ -183,12 +215,18 @@ def test_a_broken_part_is_named(tmp_path: Path) -> None:
 
 
 def command(folder: Path, *others: str) -> list[str]:
-    words = [sys.executable, "-m", "jostle_lab", "sweep", "--scene", "ratchet", "--seconds", "30", "--seeds", "40"]
+    words = [sys.executable, "-m", "jostle_lab", "sweep", "--scene", "ratchet", "--seconds", "15", "--seeds", "40"]
     words += ["--grid", "disks=10,20", "--set", "tooth.height=3e-3", "--results", str(folder), "--no-progress"]
-    return [*words, "--program", str(PROGRAM), "--processes", "1", *others]
+    return [*words, "--processes", "1", *others]
 
 
-def test_killed_in_the_middle_and_resumed(tmp_path: Path, program: Program) -> None:
+def processes_for_runs() -> set[str]:
+    """Numbers of all processes of this machine that do runs."""
+    listed = subprocess.run(["ps", "-eo", "pid,args"], capture_output=True, text=True, check=True).stdout
+    return {line.split()[0] for line in listed.splitlines() if "jostle_lab.runs.serve" in line}
+
+
+def test_killed_in_the_middle_and_resumed(tmp_path: Path, package: Package) -> None:
     """SIGKILL after the first part: what is there stays as it is, the rest comes, and no run is there twice."""
     folder = tmp_path / "killed"
     process = subprocess.Popen(command(folder), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -208,32 +246,63 @@ def test_killed_in_the_middle_and_resumed(tmp_path: Path, program: Program) -> N
     after = Store(folder).rows()
     assert {key: after[key] for key in before} == before
     assert sorted({row["seed"] for row in after.values()}) == list(range(1, 41))
-    whole = sweep(tmp_path / "whole", program).run(
-        Grid("ratchet", 30.0, seeds=tuple(range(1, 6)), fixed={"tooth.height": 3e-3}, axes={"disks": (10,)}).runs()
+    whole = sweep(tmp_path / "whole", package).run(
+        Grid("ratchet", 15.0, seeds=tuple(range(1, 6)), fixed={"tooth.height": 3e-3}, axes={"disks": (10,)}).runs()
     )
     for row in whole.values():
         assert row["transport_velocity"] == after[row["key"]]["transport_velocity"]
 
 
-def test_a_failed_run_is_kept_with_its_error_and_retried_if_asked(tmp_path: Path, program: Program) -> None:
+def test_package_and_program_give_the_same_bits_under_keys_of_their_own(
+    tmp_path: Path, package: Package, program: Program
+) -> None:
+    runs = [
+        *Grid("ratchet", 1.0, seeds=(1, 2), axes={"disks": (1, 10)}).runs(),
+        *Grid("wedge", 3.0, fixed={"wedge.tilt": 0.2}).runs(),
+        *Grid("three_disk", 0.3, drive="random-supports").runs(),
+        Run("packing", "molecular-dynamics", 0.25, 0.1, (("drive.amplitude", 1e-4), ("seed", 3)), disks=12),
+    ]
+    ours, theirs = sweep(tmp_path, package).run(runs), sweep(tmp_path, program).run(runs)
+    for run in runs:
+        assert numbers(ours[run]) == numbers(theirs[run])
+        assert ours[run]["state"] == DONE and ours[run]["time"] == run.seconds
+        assert 0.0 < ours[run]["processor_seconds"] < 60.0
+    assert len(Store(tmp_path).rows()) == 2 * len(runs)
+
+
+def test_a_failed_run_is_kept_with_its_error_and_retried_if_asked(tmp_path: Path, build: Build) -> None:
     good, bad = (Run("ratchet", "event-driven", 1.0, 1.0, (("tooth.tip_radius", s), ("seed", 1))) for s in (4e-4, 0.1))
-    first = sweep(tmp_path, program).run([good, bad, good])
+    first = sweep(tmp_path, build).run([good, bad, good])
     assert first[good]["state"] == DONE and first[good]["error"] is None
     assert first[bad]["state"] == FAILED and "tooth.tip_radius = 0.1 m is not allowed" in first[bad]["error"]
     assert first[bad]["command"].startswith("jostle run ratchet") and first[bad]["seed"] == 1
-    assert sweep(tmp_path, program).run([good, bad]) == first
-    again = sweep(tmp_path, program, retry_failed=True).run([good, bad])
+    assert sweep(tmp_path, build).run([good, bad]) == first
+    again = sweep(tmp_path, build, retry_failed=True).run([good, bad])
     assert again[good] == first[good]
     assert again[bad]["finished"] > first[bad]["finished"]
     assert len(Store(tmp_path).rows()) == 2
 
 
-def test_a_run_over_the_limit_is_a_failure(tmp_path: Path, program: Program) -> None:
+def test_a_run_over_the_limit_is_a_failure(tmp_path: Path, build: Build) -> None:
     endless = Run("ratchet", "event-driven", 1e6, 1e6, (("seed", 1),))
-    limited = Program(program.path, program.version, limit=0.3)
-    (row,) = sweep(tmp_path, limited).run([endless]).values()
-    assert row["state"] == FAILED
-    assert row["error"].startswith("Stopped after 0.3 s.")
+    short = Run("ratchet", "event-driven", 0.1, 0.1, (("seed", 1),))
+    limited = replace(build, limit=0.3)  # type: ignore[type-var]
+    rows = sweep(tmp_path, limited, workers=Workers(processes=1)).run([short, endless, short])
+    assert rows[short]["state"] == DONE
+    assert rows[endless]["state"] == FAILED
+    assert rows[endless]["error"].startswith("Stopped after 0.3 s.")
+    assert 0.3 <= rows[endless]["clock_seconds"] < 10.0  # of 1e6 simulated seconds
+    assert rows[endless]["processor_seconds"] > 0.0
+
+
+def test_a_scene_without_chance_is_swept_without_seeds(tmp_path: Path) -> None:
+    words = ["sweep", "--scene", "three_disk", "--seconds", "0.1", "--grid", "tilt=0.1,0.2", "--no-progress"]
+    words += ["--results", str(tmp_path)]
+    done = CliRunner().invoke(application("", command_sweep), words)
+    assert "2 runs" in done.output and "2 done, 0 failed" in done.output, done
+    assert {row["seed"] for row in Store(tmp_path).rows().values()} == {None}
+    refused = CliRunner().invoke(application("", command_sweep), [*words, "--seeds", "2"]).exception
+    assert isinstance(refused, LabError) and "all seeds give the same run" in str(refused)
 
 
 def test_another_program_ends_the_sweep_and_records_nothing(tmp_path: Path, program: Program) -> None:
@@ -243,12 +312,66 @@ def test_another_program_ends_the_sweep_and_records_nothing(tmp_path: Path, prog
     assert Store(tmp_path).rows() == {}
 
 
-def test_a_scheduler_by_its_address(tmp_path: Path, program: Program) -> None:
+def test_another_package_ends_the_sweep_and_records_nothing(tmp_path: Path) -> None:
+    run = Run("ratchet", "event-driven", 1.0, 1.0, (("seed", 1),))
+    with pytest.raises(LabError, match="Put the same package there"):
+        sweep(tmp_path, Package("another")).run([run])
+    assert Store(tmp_path).rows() == {}
+
+
+def test_a_run_whose_process_dies_is_a_failure_and_the_next_run_has_another(package: Package) -> None:
+    run = Run("ratchet", "event-driven", 0.1, 0.1, (("seed", 1),))
+    endless = Run("ratchet", "event-driven", 1e6, 1e6, (("seed", 1),))
+    children = Children()
+    with children.lent() as child:
+        assert child.perform(run, None).error is None
+        threading.Timer(0.2, child.kill).start()
+        died = child.perform(endless, None)
+    assert died.error == f"Its process ended with code {-signal.SIGKILL}." and died.outputs == {}
+    with children.lent() as another:
+        assert another is not child and another.perform(run, None).error is None
+    children.end()
+    assert not another.alive
+
+
+def test_no_process_for_runs_outlives_a_sweep(tmp_path: Path) -> None:
+    """Ctrl-C in the middle of an endless step, and a kill."""
+    for sent, code in ((signal.SIGINT, 130), (signal.SIGKILL, -signal.SIGKILL)):
+        before = processes_for_runs()
+        words = command(tmp_path / str(sent), "--seconds", "1e6")
+        process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 60.0
+        while not (ours := processes_for_runs() - before):
+            assert time.monotonic() < deadline and process.poll() is None
+            time.sleep(0.05)
+        time.sleep(0.7)  # into the step
+        process.send_signal(sent)
+        assert process.wait(30.0) == code
+        while ours & processes_for_runs():
+            assert time.monotonic() < deadline, "a process goes on"
+            time.sleep(0.05)
+
+
+def test_pandas_reads_the_folder(tmp_path: Path) -> None:
+    done = subprocess.run(
+        command(tmp_path, "--seconds", "0.1", "--seeds", "2"), capture_output=True, text=True, check=True
+    )
+    assert "4 done, 0 failed" in done.stdout
+    table = pd.read_parquet(tmp_path)
+    assert sorted(zip(table["disks"], table["seed"], strict=True)) == [(10, 1), (10, 2), (20, 1), (20, 2)]
+    assert set(table["state"]) == {DONE} and table["transport_velocity"].dtype == float
+
+
+def test_a_scheduler_by_its_address(tmp_path: Path, package: Package) -> None:
     """Workers in processes of their own, as on another machine; and an address where nobody answers."""
+    endless = Run("ratchet", "event-driven", 1e6, 1e6, (("seed", 1),))
     runs = Grid("ratchet", 2.0, seeds=(1, 2, 3)).runs()
     with LocalCluster(n_workers=1, threads_per_worker=2, dashboard_address="127.0.0.1:0") as cluster:
-        remote = sweep(tmp_path / "remote", program, workers=Workers(cluster.scheduler_address)).run(runs)
-    here = sweep(tmp_path / "here", program).run(runs)
-    assert [remote[run]["transport_velocity"] for run in runs] == [here[run]["transport_velocity"] for run in runs]
+        workers = Workers(cluster.scheduler_address)
+        remote = sweep(tmp_path / "remote", package, workers=workers).run(runs)
+        (late,) = sweep(tmp_path / "late", replace(package, limit=0.3), workers=workers).run([endless]).values()
+    assert late["state"] == FAILED and late["error"] == "Stopped after 0.3 s."
+    here = sweep(tmp_path / "here", package).run(runs)
+    assert [numbers(remote[run]) for run in runs] == [numbers(here[run]) for run in runs]
     with pytest.raises(LabError, match=r"No Dask scheduler answers at tcp://127\.0\.0\.1:9"):
-        sweep(tmp_path / "nobody", program, workers=Workers("tcp://127.0.0.1:9", patience=0.5)).run(runs)
+        sweep(tmp_path / "nobody", package, workers=Workers("tcp://127.0.0.1:9", patience=0.5)).run(runs)

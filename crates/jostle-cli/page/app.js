@@ -165,7 +165,7 @@ class App {
     const digits = (number) => +number.toPrecision(2);
     const turns = digits((60 * size) / (2 * Math.PI));
     const texts = {
-      spin: `blue: clockwise, orange: counter-clockwise; full colour at ${turns} turns a minute`,
+      spin: `blue: counter-clockwise, red: clockwise; full colour at ${turns} turns a minute`,
       speed: `white: at rest, full blue at ${digits(100 * size)} cm/s`,
       none: "",
     };

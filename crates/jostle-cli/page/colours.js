@@ -1,6 +1,6 @@
-// Colours of disks. Diverging from blue over white to orange, which people with red-green blindness tell apart.
+// Colours of disks. Diverging from red over white to blue, as in the films; people with red-green blindness tell them apart.
 
-const ENDS = { low: [33, 102, 172], middle: [245, 245, 245], high: [230, 97, 1] };
+const ENDS = { low: [202, 45, 50], middle: [245, 245, 245], high: [33, 102, 172] };
 
 function mixed(from, to, share) {
   const part = from.map((value, k) => Math.round(value + (to[k] - value) * share));
@@ -15,7 +15,7 @@ export function diverging(share) {
 
 /** Colour of a number in [0, 1], from white to blue. */
 export function sequential(share) {
-  return mixed(ENDS.middle, ENDS.low, Math.max(0, Math.min(1, Number.isFinite(share) ? share : 0)));
+  return mixed(ENDS.middle, ENDS.high, Math.max(0, Math.min(1, Number.isFinite(share) ? share : 0)));
 }
 
 /** A scale that follows the numbers: it grows at once and shrinks slowly, so that colours do not flicker. */

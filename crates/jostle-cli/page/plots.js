@@ -77,7 +77,7 @@ function mean(context, series, x, y, ratio) {
   context.stroke();
 }
 
-/** Lines that end high are orange, lines that end low blue, those between grey. */
+/** Lines that end high are blue, lines that end low red, those between grey. */
 function dark(share, k) {
   return Math.abs(share) < 0.05 ? `hsl(0, 0%, ${45 + (k % 4) * 8}%)` : diverging(Math.sign(share) * Math.max(0.55, Math.abs(share)));
 }

@@ -8,8 +8,8 @@
 //! need no other. `clippy.toml` keeps the standard library's functions out.
 
 pub use libm::{
-    acos, acosh, asin, atan, atan2, atanh, cos, cosh, exp, expm1 as exp_m1, fma as mul_add, hypot, pow as powf, sin,
-    sincos as sin_cos, sinh, tan,
+    acos, acosh, asin, atan, atan2, atanh, cos, cosh, exp, expm1 as exp_m1, fma as mul_add, hypot, log as ln, pow as powf,
+    sin, sincos as sin_cos, sinh, tan,
 };
 
 /// `x` to an integer power, by squaring.
@@ -59,6 +59,8 @@ mod tests {
                 "{x}"
             );
             assert!(close(exp(x), x.exp()) && close(exp_m1(x), x.exp_m1()), "{x}");
+            assert_eq!(ln(1.0), 0.0);
+            assert!(close(ln(x.abs() + 1e-9), (x.abs() + 1e-9).ln()), "{x}");
             assert!(
                 close(sinh(x), x.sinh()) && close(cosh(x), x.cosh()) && close(tan(x), x.tan()),
                 "{x}"

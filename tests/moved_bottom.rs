@@ -107,21 +107,23 @@ fn a_free_disk_on_the_moved_row_moves_as_by_brute_force() {
             Box::new(move |start| brute_force(drive, start, 0.04))
         })
     };
-    let random = |step: f64| {
-        let given = [("bottom.radius", 2e-4), ("bottom.seed", 5.0)];
+    let random = |step: f64, seed: u32| {
+        let given = [("bottom.radius", 2e-4), ("bottom.seed", f64::from(seed))];
         difference::<PackingOnRandomBottom>(&given, step, |held| {
             let vibration = RandomVibration {
                 radius: 2e-4,
                 angular_frequency: 80.0 * TAU,
                 damping_ratio: 0.5,
-                seed: 5,
+                seed: seed.into(),
             };
             let mut drive = RandomBottom::new(vibration, 0.0);
             drive.hold(held);
             Box::new(move |start| brute_force(drive, start, 0.04))
         })
     };
-    for errors in [[1e-5, 1e-6].map(fixed), [1e-5, 1e-6].map(random)] {
+    // Of one noise alone the error may be small by chance, where a contact begins just at the end of a time step.
+    let random_mean = |step: f64| (1..=4).map(|seed| random(step, seed)).sum::<f64>() / 4.0;
+    for errors in [[1e-5, 1e-6].map(fixed), [1e-5, 1e-6].map(random_mean)] {
         println!("errors with steps of 10 and 1 us: {errors:?} m");
         assert!(errors[1] < 1e-6 && errors[1] < 0.15 * errors[0], "{errors:?}");
     }

@@ -9,6 +9,7 @@ mod extrapolation;
 mod first_hit;
 mod follows_input;
 mod gaussian_step;
+mod normal;
 mod quintic;
 mod random_phase;
 mod sine;

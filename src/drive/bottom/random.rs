@@ -11,13 +11,13 @@
 use std::f64::consts::TAU;
 
 use rand::SeedableRng;
-use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use super::HeldDisk;
 use crate::clone_in_place::clone_in_place;
 use crate::drive::gaussian_step::{GaussianStep, PhasePoint};
+use crate::drive::normal::normal_pair;
 use crate::drive::{Drive, Motion};
 use crate::elementary::exp_m1;
 
@@ -144,9 +144,7 @@ impl RandomBottom {
     fn draw(&mut self) {
         for VibratingDisk { now, next, .. } in &mut self.disks {
             for (now, next) in now.iter().zip(next) {
-                let mut normal = || -> f64 { StandardNormal.sample(&mut self.generator) };
-                let noise = [normal(), normal()];
-                *next = self.step.after(*now, noise);
+                *next = self.step.after(*now, normal_pair(&mut self.generator));
             }
         }
     }

@@ -1,12 +1,12 @@
 //! Supports that vibrate randomly: damped oscillators forced by white noise (P 5.10), in x, y and angle each.
 
 use rand::SeedableRng;
-use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use super::{Excitation, Piece, SupportMotion};
 use crate::drive::gaussian_step::{GaussianStep, PhasePoint};
+use crate::drive::normal::normal_pair;
 use crate::error::are_sane;
 
 /// Which of the runs that are equally likely as the drawn one is taken. Means of such pairs scatter less.
@@ -94,8 +94,7 @@ impl RandomSupports {
 
 /// Twelve independent standard normal numbers.
 fn draw(generator: &mut Pcg64, sign: NoiseSign) -> Phases {
-    let mut normal = || -> f64 { StandardNormal.sample(generator) };
-    let drawn: Phases = std::array::from_fn(|_| std::array::from_fn(|_| [normal(), normal()]));
+    let drawn: Phases = std::array::from_fn(|_| std::array::from_fn(|_| normal_pair(generator)));
     let reversed = |[x, v]: PhasePoint| [-x, -v];
     match sign {
         NoiseSign::AsDrawn => drawn,

@@ -8,8 +8,8 @@
 //! need no other. `clippy.toml` keeps the standard library's functions out.
 
 pub use libm::{
-    acos, acosh, asin, atan, atan2, atanh, cos, cosh, exp, expm1 as exp_m1, fma as mul_add, hypot, log as ln, pow as powf,
-    sin, sincos as sin_cos, sinh, tan,
+    acos, acosh, asin, atan, atan2, atanh, cos, cosh, exp, expm1 as exp_m1, fma as mul_add, hypot, log as ln,
+    pow as powf, sin, sincos as sin_cos, sinh, tan,
 };
 
 /// `x` to an integer power, by squaring.

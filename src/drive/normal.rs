@@ -99,9 +99,14 @@ mod tests {
         let numbers: Vec<f64> = pairs().into_iter().flatten().collect();
         for lag in [1, 2, 3] {
             let product: f64 = numbers.windows(lag + 1).map(|window| window[0] * window[lag]).sum();
-            assert!(product.abs() < 4.0 * (numbers.len() as f64).sqrt(), "lag {lag}: {product}");
+            assert!(
+                product.abs() < 4.0 * (numbers.len() as f64).sqrt(),
+                "lag {lag}: {product}"
+            );
         }
-        let largest = numbers.iter().fold(0.0_f64, |largest, number| largest.max(number.abs()));
+        let largest = numbers
+            .iter()
+            .fold(0.0_f64, |largest, number| largest.max(number.abs()));
         assert!((4.0..6.5).contains(&largest), "{largest}");
     }
 }

@@ -14,8 +14,8 @@ from snippets import LANGUAGES, RELEASE, compiled, python, run, shell, snippet, 
 BUILD = ROOT / "build"
 WEIGHT = 3.57 * math.pi * 20 * (0.015**2 + 0.020**2 + 0.025**2) * 9.8
 STATIC_LIBRARY = (str(RELEASE / "libjostle_c.a"), "-lm", "-lpthread", "-ldl")
-CONTROL, PHYSICIST, PYTHON, C, RUST = (
-    f"docs/{name}.md" for name in ("control-engineer", "physicist", "python", "c", "rust")
+CONTROL, PHYSICIST, PYTHON, C, RUST, FILES = (
+    f"docs/{name}.md" for name in ("control-engineer", "physicist", "python", "c", "rust", "files")
 )
 RUN_ELSEWHERE = {
     (RUST, "rust", ""),  # src/lib.rs: tests of the documentation
@@ -189,6 +189,17 @@ def test_films_of_a_dataset_a_file_and_a_scene_are_made(tmp_path: Path):
     shell(snippet("docs/film.md", "sh", "film"))
     assert (BUILD / "film.gif").read_bytes().startswith(b"GIF89a")
     assert (BUILD / "film.html").read_text().startswith("<!doctype html>")
+
+
+def test_files_of_the_command_line_are_read_in_python():
+    lines = shell(snippet(FILES, "sh", "formats")).splitlines()
+    assert "time,mean_velocity,transport_velocity" in lines
+    seen = python(snippet(FILES, "python", "files"))
+    assert "unit: m/s\nTrue 25.0\n" in seen
+
+
+def test_stopped_run_goes_on_with_the_same_bits():
+    assert shell(snippet(FILES, "sh", "resume")).endswith("the same\n")
 
 
 def test_sweep_writes_parquet_that_pandas_reads():

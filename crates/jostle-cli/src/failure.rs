@@ -7,6 +7,8 @@ use std::path::Path;
 use fmi_bundle::cannot_write;
 use jostle::Error;
 
+use crate::interruption::Signal;
+
 /// Why a command ended early.
 #[derive(Debug)]
 pub enum Failure {
@@ -18,12 +20,26 @@ pub enum Failure {
     File(Error),
     /// Standard output could not be written.
     Output(io::Error),
+    /// The reader of standard output, such as `head`, has read enough: no failure.
+    ReaderGone,
+    /// The system lets nobody listen to signals.
+    Signals(io::Error),
+    /// A signal ended the run.
+    Interrupted { signal: Signal, kept: String },
 }
 
 impl Failure {
     /// A file could not be written.
     pub fn file(path: &Path, error: &io::Error) -> Self {
         Self::File(cannot_write(path, error))
+    }
+
+    /// Standard output could not be written.
+    pub fn standard_output(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self::ReaderGone,
+            _ => Self::Output(error),
+        }
     }
 
     /// This failure with what is left of the run.
@@ -37,6 +53,8 @@ impl Failure {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Refused(Error::Parameter { .. }) => 2,
+            Self::ReaderGone => 0,
+            Self::Interrupted { signal, .. } => signal.exit_code(),
             _ => 1,
         }
     }
@@ -53,6 +71,9 @@ impl fmt::Display for Failure {
         match self {
             Self::Refused(error) | Self::File(error) => write!(formatter, "{error}"),
             Self::Stopped { error, kept } => write!(formatter, "{error}\n{kept}"),
+            Self::ReaderGone => Ok(()),
+            Self::Signals(error) => write!(formatter, "signals such as that of Ctrl-C cannot be noticed: {error}"),
+            Self::Interrupted { signal, kept } => write!(formatter, "stopped by {}\n{kept}", signal.name()),
             Self::Output(error) => write!(
                 formatter,
                 "standard output cannot be written: {error}. Check where it is sent to, and the free space there."

@@ -1,4 +1,4 @@
-//! `jostle fields`: where mass is and where it flows, by place and phase of the base, into CSV files.
+//! `jostle fields`: where mass is and where it flows, by place and phase of the base, into files.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -8,13 +8,13 @@ use jostle::Error;
 use jostle::measure::FlowFields;
 use jostle::scene::catalogue::Names;
 use jostle::scene::ratchet::{RatchetOnSine, Resolution};
-use jostle::scene::{Model, ModelType, Simulation};
+use jostle::scene::{Model, ModelType, Simulation, Unit, Value};
 
-use crate::csv_file::{self, CsvFile};
 use crate::failure::Failure;
 use crate::run::positive;
 use crate::selection::{Selected, Selection};
-use crate::{assignments, output_file, progress, standard_output, text};
+use crate::table::{self, Column, Fact};
+use crate::{assignments, output_file, progress, samples, standard_output, text};
 
 /// Pieces of a run between which the progress bar moves.
 const PIECES: u64 = 100;
@@ -41,10 +41,10 @@ pub struct Fields {
     /// Simulated time before the averages begin.
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = not_negative, allow_negative_numbers = true)]
     warm_up: f64,
-    /// File for the fields.
+    /// File for the fields: .csv, .parquet, or - for CSV to standard output.
     #[arg(long, value_name = "FILE", default_value = "fields.csv")]
     output: PathBuf,
-    /// File for mass and velocity by height.
+    /// File for mass and velocity by height: .csv or .parquet.
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
     /// Parameter, such as drive.frequency=30; may be repeated.
@@ -91,26 +91,36 @@ impl Fields {
         self.check_files()?;
         let (fields, end, ratchet) = self.observe(ratchet)?;
         let took = began.elapsed().as_secs_f64();
-        self.write_fields(&fields, end)?;
+        let facts = samples::facts(&self.selected()?, &ratchet)?;
+        self.write_fields(&fields, end, &facts)?;
         if let Some(path) = &self.profile {
-            write_profile(path, &fields, end)?;
+            write_profile(path, &fields, end, &facts)?;
         }
-        standard_output::write(&format!(
+        let summary = format!(
             "{} s of {} in {took:.2} s; transport velocity {} +- {} m/s\nfields in {}{}\n",
             text::number(end),
             names.scene,
             text::number(ratchet.real("transport_velocity")?),
             text::number(ratchet.real("transport_velocity.standard_error")?),
-            self.output.display(),
+            output_file::shown(&self.output),
             self.profile
                 .as_ref()
                 .map_or_else(String::new, |path| format!(", profile in {}", path.display())),
-        ))
+        );
+        if output_file::is_standard_output(&self.output) {
+            eprint!("{summary}");
+            return Ok(());
+        }
+        standard_output::write(&summary)
+    }
+
+    fn selected(&self) -> Result<Selected, Error> {
+        self.selection.of(ModelType::of::<RatchetOnSine>())
     }
 
     /// The ratchet at the start.
     fn prepare(&self) -> Result<Simulation<RatchetOnSine>, Failure> {
-        let Selected { structure, .. } = self.selection.of(ModelType::of::<RatchetOnSine>())?;
+        let Selected { structure, .. } = self.selected()?;
         let mut ratchet = Simulation::<RatchetOnSine>::prepare(structure);
         assignments::assign(&mut ratchet, &self.assignments)?;
         ratchet.start(0.0)?;
@@ -119,17 +129,16 @@ impl Fields {
 
     /// Refuses files that cannot be written before anything is computed for them.
     fn check_files(&self) -> Result<(), Failure> {
-        output_file::check_csv("--output", &self.output)?;
+        output_file::plain_format("--output", &self.output)?;
+        let mut files = vec![("--output", self.output.as_path())];
         if let Some(profile) = &self.profile {
-            output_file::check_csv("--profile", profile)?;
-            let whole = |path: &Path| std::path::absolute(path).ok();
-            if whole(profile) == whole(&self.output) {
-                let allowed = "another file than --output, which holds the fields";
-                return Err(Error::parameter("--profile", profile.display(), allowed, "Name two files.").into());
-            }
+            output_file::plain_format("--profile", profile)?;
+            files.push(("--profile", profile));
         }
-        csv_file::check(&self.output)?;
-        self.profile.as_deref().map_or(Ok(()), csv_file::check)
+        output_file::check_distinct(&files)?;
+        files
+            .into_iter()
+            .try_for_each(|(_, path)| output_file::check_writable(path))
     }
 
     /// Runs the scene and returns the fields, the time of their end \[s\], and the simulation then.
@@ -161,29 +170,58 @@ impl Fields {
         Ok((fields, end, ratchet))
     }
 
-    fn write_fields(&self, fields: &FlowFields, end: f64) -> Result<(), Failure> {
-        let header = ["phase", "x", "y", "mass", "momentum_x", "momentum_y"];
+    fn write_fields(&self, fields: &FlowFields, end: f64, facts: &[Fact]) -> Result<(), Failure> {
+        let columns = [
+            Column::integer("phase", "Window of the phase of the base"),
+            Column::real("x", Unit::METRE, "Centre of the box, to the right"),
+            Column::real("y", Unit::METRE, "Centre of the box, up"),
+            Column::real("mass", Unit::KILOGRAM, "Mean mass in the box"),
+            Column::real(
+                "momentum_x",
+                Unit::NEWTON_SECOND,
+                "Mean momentum in the box, to the right",
+            ),
+            Column::real("momentum_y", Unit::NEWTON_SECOND, "Mean momentum in the box, up"),
+        ];
         let rows = fields.cells(end).map(|cell| {
             let [along, up] = cell.momentum.into();
-            let numbers = [cell.x, cell.y, cell.mass, along, up].map(text::number);
-            std::iter::once(cell.phase.to_string()).chain(numbers).collect()
+            let numbers = [cell.x, cell.y, cell.mass, along, up].map(Value::Real);
+            std::iter::once(Value::Integer(cell.phase.into()))
+                .chain(numbers)
+                .collect()
         });
-        write(&self.output, &header, rows)
+        write("--output", &self.output, &columns, facts, rows)
     }
 }
 
-fn write_profile(path: &Path, fields: &FlowFields, end: f64) -> Result<(), Failure> {
+fn write_profile(path: &Path, fields: &FlowFields, end: f64, facts: &[Fact]) -> Result<(), Failure> {
+    let columns = [
+        Column::real("y", Unit::METRE, "Middle of a row of boxes"),
+        Column::real("mass", Unit::KILOGRAM, "Mean mass in the row"),
+        Column::real(
+            "velocity_x",
+            Unit::METRE_PER_SECOND,
+            "Mean velocity in the row, to the right",
+        ),
+    ];
     let rows = fields
         .layers(end)
-        .map(|layer| [layer.y, layer.mass, layer.velocity].map(text::number).into());
-    write(path, &["y", "mass", "velocity_x"], rows)
+        .map(|layer| [layer.y, layer.mass, layer.velocity].map(Value::Real).into());
+    write("--profile", path, &columns, facts, rows)
 }
 
-fn write(path: &Path, header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> Result<(), Failure> {
-    let mut file = CsvFile::create(path)?;
-    file.write(header)?;
-    for row in rows {
-        file.write(&row)?;
+fn write(
+    option: &str,
+    path: &Path,
+    columns: &[Column],
+    facts: &[Fact],
+    rows: impl Iterator<Item = Vec<Value>>,
+) -> Result<(), Failure> {
+    let format = output_file::plain_format(option, path)?;
+    let rows: Vec<Vec<Value>> = rows.collect();
+    let mut table = table::create(format, path, columns, facts, &[], rows.len() as u64)?;
+    for row in &rows {
+        table.write(row)?;
     }
-    file.flush()
+    table.finish()
 }

@@ -1,26 +1,32 @@
 //! The command line. Thin: arguments in, library calls out, refusals to standard error.
 //!
-//! Exit codes: 0 done; 2 an argument or parameter is wrong and nothing was run; 1 the run or a file failed on the way.
+//! Exit codes: 0 done; 2 an argument or parameter is wrong and nothing was run; 1 the run or a file failed on the way; 130 and
+//! 143 a run was stopped by Ctrl-C or SIGTERM.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))] // those of clippy.toml
 
 mod assignments;
 #[cfg(test)]
 mod clock;
-mod csv_file;
 mod describe;
 mod failure;
 mod fields;
 mod fmu;
 mod icon;
+mod interruption;
 mod nearest;
 mod output_file;
 mod progress;
 mod replay;
 mod run;
+mod run_files;
+mod sample_times;
+mod samples;
 mod selection;
 mod standard_output;
+mod table;
 mod text;
 mod theory;
+mod trajectory;
 mod view;
 
 use std::process::ExitCode;
@@ -60,8 +66,11 @@ fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("jostle: {failure}");
-            ExitCode::from(failure.exit_code())
+            let code = failure.exit_code();
+            if code != 0 {
+                eprintln!("jostle: {failure}");
+            }
+            ExitCode::from(code)
         }
     }
 }

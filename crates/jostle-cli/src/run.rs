@@ -1,44 +1,51 @@
-//! `jostle run`: a scene from start to end, sampled into a CSV file.
+//! `jostle run`: a scene from start to end, sampled into a file.
 //!
-//! Two files: the samples (time and every output) and beside them, in `NAME.parameters.csv`, all that made them: scene,
-//! engine, drive, version and every parameter with its unit. So the samples stay plain CSV that any reader takes.
+//! CSV is two files: the samples (time and every output) and beside them, in `NAME.parameters.csv`, all that made them: scene,
+//! engine, drive, version and every parameter with its unit. So the samples stay plain CSV that any reader takes. Parquet and
+//! NetCDF hold both.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
 use jostle::Error;
+use jostle::scene::DynSimulation;
 use jostle::scene::catalogue::sine_if_known;
-use jostle::scene::{Causality, DynSimulation, Kind};
 
-use crate::csv_file::CsvFile;
 use crate::failure::Failure;
+use crate::interruption::{Interruption, Signal};
+use crate::output_file::{self, Format};
+use crate::run_files::{FileNames, Files};
+use crate::sample_times::SampleTimes;
 use crate::selection::{self, Selected, Selection};
-use crate::{assignments, output_file, progress, standard_output, text};
+use crate::{assignments, progress, standard_output, text};
 
-/// Most rows of one file; more is a slip of the keyboard.
-const MOST_ROWS: f64 = 1e8;
-
-/// Runs a scene and writes its outputs to a CSV file, with a progress bar.
+/// Runs a scene and writes its outputs to a file, with a progress bar.
 ///
-/// The file has one row for every sample, from time 0 on: time [s] and all outputs, in SI units. The parameters go to a
-/// second file beside it, run.parameters.csv. Both are replaced if they exist. Every row is on disk as soon as it is
-/// computed: if a step is refused, or you interrupt the run, all rows before it are there.
+/// The file has one row for every sample, from time 0 on: time [s] and all outputs, in SI units. Its ending chooses the format:
+/// .csv, .txt, .dat, a number or none is CSV; .parquet is Parquet; .nc is NetCDF; - is CSV to standard output. With CSV the
+/// parameters go to a second file beside it, run.parameters.csv; Parquet and NetCDF hold them. Files that exist are replaced.
+///
+/// Rows of CSV and NetCDF are on disk as soon as they are computed. Parquet is written in groups of rows, and cannot be read
+/// before it is complete. If a step is refused, the disk is full, or Ctrl-C or SIGTERM stops the run, the file is completed
+/// with all rows that it holds, and the message says how many. A second Ctrl-C stops at once.
 #[derive(Args, Debug)]
 #[command(after_help = format!(
-    "{}\nExample:\n  jostle run packing --seconds 10 --set drive.amplitude=1e-4 --set seed=7\n\n\
-    Exit code: 0 done, 2 wrong argument or parameter, 1 a step was refused or a file could not be written.",
+    "{}\nExample:\n  jostle run packing --seconds 10 --set drive.amplitude=1e-4 --set seed=7\n  \
+    jostle run ratchet --seconds 10 --output run.parquet --trajectory run.xyz\n  \
+    jostle run ratchet --seconds 20 --output more.parquet --resume run.state\n\n\
+    Exit code: 0 done, 2 wrong argument or parameter, 1 a step was refused or a file could not be written, 130 Ctrl-C, 143 \
+    SIGTERM.",
     selection::list()
 ))]
 pub struct Run {
     #[command(flatten)]
     selection: Selection,
-    /// Simulated time.
+    /// Simulated time; with --resume counted from the beginning of the saved run.
     #[arg(long, value_parser = positive, allow_negative_numbers = true)]
     seconds: f64,
-    /// File for the samples.
-    #[arg(long, value_name = "FILE", default_value = "run.csv")]
-    output: PathBuf,
+    #[command(flatten)]
+    names: FileNames,
     /// Time from one row to the next, in seconds; the last row is at the end in any case.
     #[arg(long, value_name = "SECONDS", default_value = "0.01", value_parser = positive, allow_negative_numbers = true)]
     sample: f64,
@@ -48,6 +55,10 @@ pub struct Run {
     /// What moves the base, such as sine or input (held at what --set says). Without it sine, or else the engine's first.
     #[arg(long)]
     drive: Option<String>,
+    /// Goes on from a saved state, with its parameters and with the bits of a run that was never stopped. The first row is the
+    /// one after the last of the saved run. Scene, engine, drive and disks must be the same.
+    #[arg(long, value_name = "FILE", conflicts_with = "assignments")]
+    resume: Option<PathBuf>,
     /// Show no progress bar.
     #[arg(long)]
     no_progress: bool,
@@ -64,75 +75,154 @@ impl Run {
     pub fn execute(self) -> Result<(), Failure> {
         let sine = || sine_if_known(&self.selection.scene, self.selection.engine.as_deref());
         let selected = self.selection.find(self.drive.as_deref().or_else(sine))?;
-        output_file::check_csv("--output", &self.output)?;
+        let format = self.names.check(self.resume.as_deref())?;
         let began = Instant::now();
-        let rows = run(&self, &selected)?;
-        let took = began.elapsed().as_secs_f64();
-        standard_output::write(&format!(
-            "{} s of {} in {took:.2} s, {:.3} simulated seconds per second\n{rows} rows in {}, parameters in {}\n",
-            text::number(self.seconds),
-            selected.names.scene,
-            self.seconds / took,
-            self.output.display(),
-            self.parameter_file().display(),
-        ))
-    }
-
-    /// Time of row `index` \[s\]: from the start, never a running sum.
-    fn time(&self, index: u64) -> f64 {
-        (index as f64 * self.sample).min(self.seconds)
-    }
-
-    /// Index of the last row. A remainder below a billionth of a sample is rounding, not a row.
-    fn last_row(&self) -> Result<u64, Error> {
-        let rows = (self.seconds / self.sample - 1e-9).ceil().max(1.0);
-        if rows <= MOST_ROWS {
-            return Ok(rows as u64);
+        let interruption = Interruption::listen().map_err(Failure::Signals)?;
+        let done = run(&self, &selected, &interruption)?;
+        let summary = self.summary(&done, &selected, began.elapsed().as_secs_f64());
+        if format == Format::StandardOutput {
+            eprint!("{summary}");
+            return Ok(());
         }
-        let allowed = format!("at most {MOST_ROWS:e} rows, here {rows:e}");
-        Err(Error::parameter(
-            "--sample",
-            format!("{:e} s", self.sample),
-            allowed,
-            "Sample less often or run shorter.",
-        ))
+        standard_output::write(&summary)
     }
 
-    /// See [`output_file::beside`].
-    fn parameter_file(&self) -> PathBuf {
-        output_file::beside(&self.output, "parameters.csv")
+    fn summary(&self, done: &Done, selected: &Selected, took: f64) -> String {
+        let mut files = vec![format!(
+            "{} rows in {}",
+            done.rows,
+            output_file::shown(&self.names.output)
+        )];
+        let mut add = |what: &str, path: Option<&Path>| {
+            files.extend(path.map(|path| format!("{what} in {}", path.display())));
+        };
+        add("parameters", self.names.parameter_file().as_deref());
+        add("trajectory", self.names.trajectory.as_deref());
+        add("state", self.names.state.as_deref());
+        format!(
+            "{} s of {} in {took:.2} s, {:.3} simulated seconds per second\n{}\n",
+            text::number(done.seconds),
+            selected.names.scene,
+            done.seconds / took,
+            files.join(", "),
+        )
+    }
+
+    /// The simulation at its start, or where the saved one has come to.
+    fn prepare(&self, selected: &Selected) -> Result<Box<dyn DynSimulation>, Failure> {
+        let mut simulation = (selected.model.prepare)(selected.structure.clone());
+        let Some(path) = &self.resume else {
+            assignments::assign(&mut *simulation, &self.assignments)?;
+            simulation.start(0.0)?;
+            return Ok(simulation);
+        };
+        let names = selected.names;
+        let refused = |why: String| {
+            let disks = selected.structure.get("disks");
+            let allowed = format!(
+                "the saved state of a run of {}, {}, drive {}, disks {disks}: {why}",
+                names.scene, names.engine, names.drive
+            );
+            let remedy = "Give scene, --engine, --drive and --disks of the run that was stopped.";
+            Error::parameter("--resume", path.display(), allowed, remedy)
+        };
+        let bytes = std::fs::read(path).map_err(|error| refused(error.to_string()))?;
+        let restored = simulation.restore_bytes(&bytes);
+        restored.map_err(|error| refused(error.to_string()))?;
+        if !simulation.is_started() {
+            return Err(refused("it was saved before its start".into()).into());
+        }
+        Ok(simulation)
     }
 }
 
-/// Runs the scene and returns how many rows were written.
-fn run(options: &Run, selected: &Selected) -> Result<u64, Failure> {
-    let last = options.last_row()?;
-    let mut simulation = (selected.model.prepare)(selected.structure.clone());
-    assignments::assign(&mut *simulation, &options.assignments)?;
-    simulation.start(0.0)?;
-    // First what may be refused: parameters must not stand beside the samples of another run.
-    let mut samples = Samples::create(&options.output, &*simulation)?;
-    write_parameters(options, selected, &*simulation)?;
-    samples.write(0.0, &*simulation)?;
-    let bar = progress::bar(last, !options.no_progress);
-    for row in 1..=last {
-        let time = options.time(row);
-        let advanced = simulation.advance_to(time).map_err(Failure::from);
-        if let Err(failure) = advanced.and_then(|()| samples.write(time, &*simulation)) {
-            bar.abandon();
-            warn(&*simulation);
-            let until = text::number(options.time(row - 1));
-            let kept = format!(
-                "{row} whole rows up to t = {until} s are in {}.",
-                options.output.display()
-            );
-            return Err(failure.keeping(kept));
+/// What a run has come to.
+#[derive(Debug, PartialEq)]
+struct Done {
+    /// Rows written.
+    rows: u64,
+    /// Time simulated \[s\].
+    seconds: f64,
+}
+
+/// Runs the scene and writes its files.
+fn run(options: &Run, selected: &Selected, interruption: &Interruption) -> Result<Done, Failure> {
+    let mut simulation = options.prepare(selected)?;
+    let start = simulation.time();
+    let times = SampleTimes::new(start, options.sample, options.seconds)?;
+    let mut files = Files::create(&options.names, selected, &*simulation, &times)?;
+    let first = u64::from(options.resume.is_some());
+    let done = advance(options, &times, first, &mut *simulation, &mut files, interruption);
+    // Whatever happened, what can be read shall be; the first failure is the one to tell of.
+    let finished = files.finish();
+    let stopped = done.and_then(|stopped| finished.map(|()| stopped));
+    let kept = |files: &Files| files.kept(&options.names, &times, first);
+    if !matches!(stopped, Err(Failure::ReaderGone)) {
+        warn(&*simulation);
+    }
+    match stopped {
+        Err(failure) => Err(failure.keeping(kept(&files))),
+        Ok(Some(signal)) => {
+            let kept = format!("{}{}", kept(&files), how_to_go_on(options, &*simulation));
+            Err(Failure::Interrupted { signal, kept })
         }
+        Ok(None) => {
+            if let Some(path) = &options.names.state {
+                save(path, &*simulation)?;
+            }
+            Ok(Done {
+                rows: files.whole_rows(),
+                seconds: options.seconds - start,
+            })
+        }
+    }
+}
+
+/// Goes from row to row until the end or a signal.
+fn advance(
+    options: &Run,
+    times: &SampleTimes,
+    first: u64,
+    simulation: &mut dyn DynSimulation,
+    files: &mut Files,
+    interruption: &Interruption,
+) -> Result<Option<Signal>, Failure> {
+    if first == 0 {
+        files.write(times, 0, simulation)?;
+    }
+    let bar = progress::bar(times.last(), !options.no_progress);
+    for row in 1..=times.last() {
+        if let Some(signal) = interruption.received() {
+            bar.abandon();
+            return Ok(Some(signal));
+        }
+        let advanced = simulation.advance_to(times.at(row)).map_err(Failure::from);
+        let written = advanced.and_then(|()| files.write(times, row, simulation));
+        written.inspect_err(|_| bar.abandon())?;
         bar.inc(1);
     }
     bar.finish_and_clear();
-    warn(&*simulation);
-    Ok(last + 1)
+    Ok(None)
+}
+
+/// Writes the state.
+fn save(path: &Path, simulation: &dyn DynSimulation) -> Result<(), Failure> {
+    let bytes = simulation.to_bytes()?;
+    std::fs::write(path, bytes).map_err(|error| Failure::file(path, &error))
+}
+
+/// Saves the state of a run that a signal has stopped, and says how to go on from it.
+fn how_to_go_on(options: &Run, simulation: &dyn DynSimulation) -> String {
+    let Some(path) = options.names.state_file() else {
+        return String::new();
+    };
+    match save(&path, simulation) {
+        Ok(()) => format!(
+            "\nThe state is in {path}. To go on, give the same command with --resume {path} and another --output, without --set.",
+            path = path.display()
+        ),
+        Err(failure) => format!("\nThe state could not be saved: {failure}"),
+    }
 }
 
 /// Says on standard error what is doubtful about the run.
@@ -140,73 +230,6 @@ fn warn(simulation: &dyn DynSimulation) {
     for warning in simulation.warnings(&[]) {
         eprintln!("jostle: warning: {}", warning.text);
     }
-}
-
-/// The CSV file of samples.
-struct Samples<'options> {
-    file: CsvFile<'options>,
-    /// Positions of the outputs in the table.
-    outputs: Vec<usize>,
-}
-
-impl<'options> Samples<'options> {
-    fn create(path: &'options Path, simulation: &dyn DynSimulation) -> Result<Self, Failure> {
-        let variables = simulation.values().table().variables();
-        let is_output = |position: &usize| variables[*position].causality == Causality::Output;
-        let outputs: Vec<usize> = (0..variables.len()).filter(is_output).collect();
-        let mut file = CsvFile::create(path)?;
-        let names = outputs.iter().map(|&position| variables[position].name.as_str());
-        file.write(std::iter::once("time").chain(names))?;
-        Ok(Self { file, outputs })
-    }
-
-    /// Writes one row and hands it to the operating system at once, so that nothing is lost by what comes next.
-    fn write(&mut self, time: f64, simulation: &dyn DynSimulation) -> Result<(), Failure> {
-        let mut record = vec![text::number(time)];
-        for &position in &self.outputs {
-            record.push(simulation.value(position)?.to_string());
-        }
-        self.file.write(record)?;
-        self.file.flush()
-    }
-}
-
-/// Writes all that made the samples: name, value, unit.
-fn write_parameters(options: &Run, selected: &Selected, simulation: &dyn DynSimulation) -> Result<(), Failure> {
-    let path = options.parameter_file();
-    let names = selected.names;
-    let mut records = vec![
-        ["name".into(), "value".into(), "unit".into()],
-        ["scene".into(), names.scene.into(), String::new()],
-        ["engine".into(), names.engine.into(), String::new()],
-        ["drive".into(), names.drive.into(), String::new()],
-        [
-            "disks".into(),
-            selected.structure.get("disks").to_string(),
-            String::new(),
-        ],
-        ["version".into(), env!("CARGO_PKG_VERSION").into(), String::new()],
-        ["seconds".into(), text::number(options.seconds), "s".into()],
-        ["sample".into(), text::number(options.sample), "s".into()],
-    ];
-    for (position, variable) in simulation.values().table().variables().iter().enumerate() {
-        if variable.causality != Causality::Output {
-            let unit = match &variable.kind {
-                Kind::Real(quantity) => quantity.unit.name,
-                _ => "1",
-            };
-            records.push([
-                variable.name.clone(),
-                simulation.value(position)?.to_string(),
-                unit.into(),
-            ]);
-        }
-    }
-    let mut file = CsvFile::create(&path)?;
-    for record in &records {
-        file.write(record)?;
-    }
-    file.flush()
 }
 
 #[cfg(test)]
@@ -222,16 +245,23 @@ mod tests {
                 disks: Some(2),
             },
             seconds,
-            output: folder.join("run.csv"),
+            names: FileNames {
+                output: folder.join("run.csv"),
+                parameters: None,
+                trajectory: None,
+                state: None,
+            },
             sample,
             assignments: assignments.iter().map(|text| text.to_string()).collect(),
             drive: None,
+            resume: None,
             no_progress: true,
         }
     }
 
     fn run_clock(options: &Run) -> Result<u64, Failure> {
-        run(options, &options.selection.of(clock::MODEL)?)
+        let selected = options.selection.of(clock::MODEL)?;
+        run(options, &selected, &Interruption::default()).map(|done| done.rows)
     }
 
     fn folder(name: &str) -> PathBuf {
@@ -260,8 +290,8 @@ mod tests {
             "0.8,1.6,1.6,1",
             "1,2,2,2",
         ];
-        assert_eq!(lines(&options.output), expected);
-        let parameters = lines(&options.parameter_file());
+        assert_eq!(lines(&options.names.output), expected);
+        let parameters = lines(&options.names.parameter_file().unwrap());
         for line in [
             "name,value,unit",
             "scene,clock,",
@@ -279,20 +309,6 @@ mod tests {
     }
 
     #[test]
-    fn whole_samples_are_counted_despite_rounding() {
-        let rows = |seconds, sample| options(Path::new(""), seconds, sample, &[]).last_row().unwrap();
-        assert_eq!(
-            (rows(0.3, 0.1), rows(10.0, 0.01), rows(1.0, 3.0), rows(0.7, 0.1)),
-            (3, 1000, 1, 7)
-        );
-        let many = options(Path::new(""), 1e9, 1e-9, &[])
-            .last_row()
-            .unwrap_err()
-            .to_string();
-        assert!(many.starts_with("--sample = "), "{many}");
-    }
-
-    #[test]
     fn a_refused_step_keeps_the_rows_before_it() {
         let folder = folder("refused");
         let options = options(&folder, 1.0, 0.1, &["limit=0.45"]);
@@ -303,7 +319,7 @@ mod tests {
             message.contains("the clock has stopped") && message.contains("5 whole rows up to t = 0.4 s"),
             "{message}"
         );
-        assert_eq!(lines(&options.output).len(), 6);
+        assert_eq!(lines(&options.names.output).len(), 6);
         std::fs::remove_dir_all(folder).unwrap();
     }
 
@@ -311,10 +327,10 @@ mod tests {
     fn a_wrong_parameter_leaves_earlier_files_alone() {
         let folder = folder("wrong");
         let options = options(&folder, 1.0, 0.1, &["rate=11"]);
-        std::fs::write(&options.output, "precious").unwrap();
+        std::fs::write(&options.names.output, "precious").unwrap();
         let failure = run_clock(&options).unwrap_err();
         assert_eq!(failure.exit_code(), 2);
-        assert_eq!(lines(&options.output), ["precious"]);
+        assert_eq!(lines(&options.names.output), ["precious"]);
         std::fs::remove_dir_all(folder).unwrap();
     }
 }

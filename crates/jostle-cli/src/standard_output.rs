@@ -10,8 +10,9 @@ use crate::failure::Failure;
 /// It cannot be written.
 pub fn write(text: &str) -> Result<(), Failure> {
     let mut output = io::stdout().lock();
-    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        written => written.map_err(Failure::Output),
+    let written = output.write_all(text.as_bytes()).and_then(|()| output.flush());
+    match written.map_err(Failure::standard_output) {
+        Err(Failure::ReaderGone) => Ok(()),
+        done => done,
     }
 }

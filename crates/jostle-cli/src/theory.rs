@@ -1,5 +1,7 @@
 //! `jostle theory`: curves of the theory as CSV, to be drawn elsewhere.
 
+use std::path::PathBuf;
+
 use clap::{Args, ValueEnum};
 use jostle::Error;
 use jostle::measure::disk_on_two_supports::{
@@ -10,7 +12,7 @@ use jostle::measure::disk_on_two_supports::{
 use crate::assignments::split;
 use crate::failure::Failure;
 use crate::nearest::did_you_mean;
-use crate::{standard_output, text};
+use crate::{output_file, standard_output, text};
 
 /// Computes what the theory says of a scene and prints it as CSV: what varies, then the quantity, in SI units.
 ///
@@ -33,6 +35,9 @@ pub struct Theory {
     /// Value, list or range of a parameter; may be repeated.
     #[arg(long = "set", value_name = "NAME=VALUES", allow_hyphen_values = true)]
     assignments: Vec<String>,
+    /// CSV file for the table; - is standard output.
+    #[arg(long, value_name = "FILE", default_value = "-")]
+    output: PathBuf,
 }
 
 #[derive(ValueEnum, Debug, Clone, Copy)]
@@ -76,9 +81,17 @@ impl Theory {
             let remedy = "The other scenes have no theory here.";
             return Err(Error::parameter("scene", self.scene, scenes, remedy).into());
         }
+        let path = &self.output;
+        let is_standard = output_file::is_standard_output(path);
+        if !is_standard {
+            output_file::check_csv("--output", path)?;
+        }
         let swept = swept(&self.assignments)?;
         let page = page(self.quantity, &swept)?;
-        standard_output::write(&page)
+        if is_standard {
+            return standard_output::write(&page);
+        }
+        std::fs::write(path, page).map_err(|error| Failure::file(path, &error))
     }
 }
 

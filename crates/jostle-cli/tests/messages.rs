@@ -71,8 +71,41 @@ fn a_file_of_another_format_is_refused_before_anything_is_done() {
     let path = |name: &str| folder.join(name).to_str().unwrap().to_string();
     let run = |output: &str| refused(&["run", "packing", "--seconds", "0.001", "--output", output]);
     let cases = [
-        (run(&path("r.h5")), "ends in .csv"),
-        (run("-"), "--output = - is not allowed"),
+        (
+            run(&path("r.h5")),
+            "ends in .csv, .txt, .dat or a number (CSV), .parquet (Parquet) or .nc (NetCDF), or -",
+        ),
+        (run(&path("r.mat")), "r.csv"),
+        (
+            refused(&["theory", "three_disk", "limits", "--output", &path("t.nc")]),
+            "ends in .csv",
+        ),
+        (
+            refused(&[
+                "run",
+                "packing",
+                "--seconds",
+                "1",
+                "--output",
+                &path("r.csv"),
+                "--trajectory",
+                &path("t.vtk"),
+            ]),
+            "--trajectory = ",
+        ),
+        (
+            refused(&[
+                "run",
+                "packing",
+                "--seconds",
+                "1",
+                "--output",
+                &path("r.csv"),
+                "--parameters",
+                &path("r.csv"),
+            ]),
+            "another file than that of --output",
+        ),
         (refused(&["fmu", "packing", "--out", &path("x.txt")]), "ends in .fmu"),
         (refused(&["fmu", "packing", "--out", "-"]), "--out FILE.fmu"),
         (

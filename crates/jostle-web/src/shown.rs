@@ -2,8 +2,8 @@
 //!
 //! Not [`DynSimulation`](jostle::scene::DynSimulation): what that can do besides, such as states as bytes, would double the module.
 
-use jostle::scene::{Listed, Model, ModelInfo, Simulation, StructuralParameters, Table, Value, Warning};
 use jostle::Result;
+use jostle::scene::{Listed, Model, ModelInfo, Simulation, StructuralParameters, Table, Value, Warning};
 
 /// The methods of [`Simulation`] that the page needs, without its type.
 pub trait Shown: Send {

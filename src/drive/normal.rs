@@ -71,13 +71,16 @@ mod tests {
         }
     }
 
+    /// What is averaged.
+    type Power<'a> = &'a dyn Fn(&[f64; 2]) -> f64;
+
     /// Means, products and powers within four standard errors of what a normal number has.
     #[test]
     fn moments_are_those_of_independent_normal_numbers() {
         let pairs = pairs();
-        let mean = |power: &dyn Fn(&[f64; 2]) -> f64| pairs.iter().map(power).sum::<f64>() / PAIRS as f64;
+        let mean = |power: Power<'_>| pairs.iter().map(power).sum::<f64>() / PAIRS as f64;
         // The moment, what it must be, and the variance of what is averaged.
-        let moments: [(&dyn Fn(&[f64; 2]) -> f64, f64, f64); 8] = [
+        let moments: [(Power<'_>, f64, f64); 8] = [
             (&|[x, _]| *x, 0.0, 1.0),
             (&|[_, y]| *y, 0.0, 1.0),
             (&|[x, _]| x.powi(2), 1.0, 2.0),

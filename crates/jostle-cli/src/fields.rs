@@ -218,10 +218,9 @@ fn write(
     rows: impl Iterator<Item = Vec<Value>>,
 ) -> Result<(), Failure> {
     let format = output_file::plain_format(option, path)?;
-    let rows: Vec<Vec<Value>> = rows.collect();
-    let mut table = table::create(format, path, columns, facts, &[], rows.len() as u64)?;
-    for row in &rows {
-        table.write(row)?;
+    let mut table = table::create(format, path, columns, facts, &[])?;
+    for row in rows {
+        table.write(&row)?;
     }
     table.finish()
 }

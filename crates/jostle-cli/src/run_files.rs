@@ -105,7 +105,7 @@ impl Files {
         };
         let facts = samples::facts(selected, simulation)?;
         let format = output_file::table_format("--output", &names.output)?;
-        let samples = Samples::create(format, &names.output, simulation, &facts, times.last() + 1)?;
+        let samples = Samples::create(format, &names.output, simulation, &facts)?;
         if let Some(path) = names.parameter_file() {
             let seconds = times.of_parameters();
             samples::write_parameters(&path, &facts, seconds)?;

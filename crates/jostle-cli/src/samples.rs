@@ -18,7 +18,7 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// A table without rows, of which about `rows` are to come; a file that was there is replaced.
+    /// A table without rows; a file that was there is replaced.
     ///
     /// # Errors
     /// It cannot be made.
@@ -27,7 +27,6 @@ impl Samples {
         path: &Path,
         simulation: &dyn DynSimulation,
         facts: &[Fact],
-        rows: u64,
     ) -> Result<Self, Failure> {
         let variables = simulation.values().table().variables();
         let is_output = |position: &usize| variables[*position].causality == Causality::Output;
@@ -36,7 +35,7 @@ impl Samples {
         let own = outputs.iter().map(|&position| Column::of(&variables[position]));
         let columns: Vec<Column> = std::iter::once(time).chain(own).collect();
         let fixed = coordinates(simulation)?;
-        let table = table::create(format, path, &columns, facts, &fixed, rows)?;
+        let table = table::create(format, path, &columns, facts, &fixed)?;
         Ok(Self {
             table,
             row: Vec::with_capacity(columns.len()),

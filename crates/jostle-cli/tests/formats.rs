@@ -58,13 +58,13 @@ fn standard_output_takes_the_samples_and_the_summary_goes_to_standard_error() {
 #[test]
 fn parquet_has_the_numbers_of_csv_with_units_and_parameters() {
     let folder = folder("parquet");
-    let path = folder.join("run.parquet");
+    let path = folder.join("alone.parquet");
     let said = run_into(&path, &[]);
     assert!(
         said.contains("26 rows in ") && !said.contains("parameters in"),
         "{said}"
     );
-    assert!(!folder.join("run.parameters.csv").exists());
+    assert!(!folder.join("alone.parameters.csv").exists());
     let (names, rows) = csv_of_the_run(&folder);
     let reader = SerializedFileReader::new(std::fs::File::open(&path).unwrap()).unwrap();
     let file = reader.metadata().file_metadata();

@@ -1,5 +1,6 @@
 //! Rows of text as CSV, into a file or to standard output.
 
+use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -13,6 +14,8 @@ use crate::failure::Failure;
 pub struct CsvTable {
     place: Place,
     rows: u64,
+    /// The last row of numbers.
+    text: String,
 }
 
 enum Place {
@@ -48,7 +51,11 @@ impl CsvTable {
     }
 
     fn started<'a>(place: Place, names: impl Iterator<Item = &'a str>) -> Result<Self, Failure> {
-        let mut table = Self { place, rows: 0 };
+        let mut table = Self {
+            place,
+            rows: 0,
+            text: String::new(),
+        };
         table.line(names)?;
         Ok(table)
     }
@@ -67,15 +74,23 @@ impl CsvTable {
         let mut line = csv::Writer::from_writer(Vec::new());
         let made = line.write_record(row).map_err(io::Error::other);
         let line = made.and_then(|()| line.into_inner().map_err(|error| io::Error::other(error.to_string())));
-        match &mut self.place {
-            Place::StandardOutput => {
+        match (line, &self.place) {
+            (Ok(line), _) => self.place.append(&line),
+            (Err(error), Place::File { path, .. }) => Err(Failure::file(path, &error)),
+            (Err(error), Place::StandardOutput) => Err(Failure::standard_output(error)),
+        }
+    }
+}
+
+impl Place {
+    fn append(&mut self, line: &[u8]) -> Result<(), Failure> {
+        match self {
+            Self::StandardOutput => {
                 let mut output = io::stdout().lock();
-                line.and_then(|line| output.write_all(&line).and_then(|()| output.flush()))
-                    .map_err(Failure::standard_output)
+                let written = output.write_all(line).and_then(|()| output.flush());
+                written.map_err(Failure::standard_output)
             }
-            Place::File { path, file } => line
-                .and_then(|line| write_whole(file, &line))
-                .map_err(|error| Failure::file(path, &error)),
+            Self::File { path, file } => write_whole(file, line).map_err(|error| Failure::file(path, &error)),
         }
     }
 }
@@ -91,7 +106,16 @@ pub fn write_whole(file: &mut File, bytes: &[u8]) -> io::Result<()> {
 
 impl Table for CsvTable {
     fn write(&mut self, row: &[Value]) -> Result<(), Failure> {
-        self.record(row.iter().map(Value::to_string))
+        self.text.clear();
+        for (index, value) in row.iter().enumerate() {
+            // Formatting into a string cannot fail, and numbers need no quotes.
+            let comma = if index == 0 { "" } else { "," };
+            let _ = write!(self.text, "{comma}{value}");
+        }
+        self.text.push('\n');
+        self.place.append(self.text.as_bytes())?;
+        self.rows += 1;
+        Ok(())
     }
 
     fn finish(&mut self) -> Result<(), Failure> {

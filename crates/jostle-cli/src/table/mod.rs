@@ -4,6 +4,7 @@
 //! here: which format a name means (`output_file`), what the rows of a run are (`samples`).
 
 mod csv_table;
+mod held_rows;
 mod netcdf_table;
 mod parquet_table;
 mod reserved_file;
@@ -133,7 +134,7 @@ pub trait Table {
 
 /// A new table of the format; a file that was there is replaced.
 ///
-/// `fixed` is for NetCDF alone. `rows` is how many are expected: Parquet chooses by it how many it holds at once.
+/// `fixed` is for NetCDF alone.
 ///
 /// # Errors
 /// The file cannot be made.
@@ -143,12 +144,11 @@ pub fn create(
     columns: &[Column],
     facts: &[Fact],
     fixed: &[Coordinate],
-    rows: u64,
 ) -> Result<Box<dyn Table>, Failure> {
     Ok(match format {
         Format::Csv => Box::new(CsvTable::create(path, columns)?),
         Format::StandardOutput => Box::new(CsvTable::to_standard_output(columns)?),
-        Format::Parquet => Box::new(ParquetTable::create(path, columns, facts, rows)?),
+        Format::Parquet => Box::new(ParquetTable::create(path, columns, facts)?),
         Format::NetCdf => Box::new(NetCdfTable::create(path, columns, facts, fixed)?),
     })
 }

@@ -1,7 +1,8 @@
 //! Rows as a Parquet file: one column of doubles or of whole numbers a variable, in groups of rows.
 //!
-//! A group is held in memory until it is full. The footer, without which nobody can read the file, comes last: room for it is
-//! reserved before each group, so that a full disk costs the rows of the last group and not the file.
+//! A group is held until it is full: narrow tables in memory, wide ones in a temporary file, since each column of each group
+//! costs memory for the footer, and groups must be long. The footer, without which nobody can read the file, comes last. Room
+//! for it and for the rows held is reserved in the file as they come, so that a full disk costs none of them.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -16,18 +17,25 @@ use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
+use super::held_rows::HeldRows;
 use super::reserved_file::ReservedFile;
 use super::{Column, Content, Fact, Table};
 use crate::failure::Failure;
 
-/// Bytes of rows that are held at least before they are written: small tables have groups of this size.
-const LEAST_HELD: u64 = 1 << 20;
+/// Bytes of a group that is held in memory.
+const IN_MEMORY: usize = 1 << 22;
 
-/// Bytes of rows that are held at most.
-const MOST_HELD: u64 = 1 << 26;
+/// Rows of a group at least. What does not fit into memory then is held in a file.
+const LEAST_ROWS: usize = 4096;
 
-/// Bytes of the footer, in memory, that a column costs in each group.
-const FOOTER_OF_A_COLUMN: u64 = 500;
+/// Rows of a group that is held in a file. The footer of a column in a group takes 0.75 kB of memory: 1 % of its numbers.
+const ROWS_IN_FILE: usize = 8192;
+
+/// Bytes of numbers that are turned from rows into columns at once.
+const BLOCK: usize = 1 << 24;
+
+/// Bytes for which room is reserved at once.
+const RESERVED: usize = 1 << 20;
 
 /// Bytes of the footer in the file beside the names and texts, for a column in a group.
 const ENTRY: u64 = 160;
@@ -36,11 +44,12 @@ const ENTRY: u64 = 160;
 pub struct ParquetTable {
     path: PathBuf,
     writer: SerializedFileWriter<ReservedFile>,
-    held: Vec<Held>,
-    /// Rows in `held`.
-    held_rows: u64,
+    contents: Vec<Content>,
+    held: HeldRows,
     /// Rows of a group.
-    group: u64,
+    group: usize,
+    /// Rows of this group for which there is room.
+    room: usize,
     /// Groups written.
     groups: u64,
     /// Bytes of names and texts in the footer: those of the schema, and those of each group.
@@ -51,17 +60,28 @@ pub struct ParquetTable {
     readable: u64,
 }
 
-enum Held {
-    Reals(Vec<f64>),
-    Integers(Vec<i64>),
-}
-
 impl ParquetTable {
     /// An empty file; a file that was there is replaced. The facts, units and descriptions become its metadata.
     ///
     /// # Errors
     /// It cannot be made.
-    pub fn create(path: &Path, columns: &[Column], facts: &[Fact], rows: u64) -> Result<Self, Failure> {
+    pub fn create(path: &Path, columns: &[Column], facts: &[Fact]) -> Result<Self, Failure> {
+        let in_memory = IN_MEMORY / (8 * columns.len());
+        let (group, held) = match in_memory >= LEAST_ROWS {
+            true => (in_memory, Ok(HeldRows::in_memory(columns.len()))),
+            false => (ROWS_IN_FILE, HeldRows::in_file(columns.len(), folder_of(path))),
+        };
+        let held = held.map_err(|error| Failure::file(path, &error))?;
+        Self::in_groups(path, columns, facts, group, held)
+    }
+
+    fn in_groups(
+        path: &Path,
+        columns: &[Column],
+        facts: &[Fact],
+        group: usize,
+        held: HeldRows,
+    ) -> Result<Self, Failure> {
         let metadata = key_values(columns, facts);
         let text = |pair: &KeyValue| pair.key.len() + pair.value.as_ref().map_or(0, String::len) + 32;
         let names: usize = columns.iter().map(|column| column.name.len()).sum();
@@ -81,47 +101,59 @@ impl ParquetTable {
         let mut table = Self {
             path: path.into(),
             writer: made.map_err(|error| Failure::file(path, &error))?,
-            held: columns.iter().map(Held::of).collect(),
-            held_rows: 0,
-            group: rows_of_a_group(columns.len() as u64, rows),
+            contents: columns.iter().map(|column| column.content).collect(),
+            held,
+            group,
+            room: 0,
             groups: 0,
             texts,
             rows: 0,
             readable: 0,
         };
-        let footer = table.footer(0);
-        table.reserve(footer)?;
+        table.make_room(0)?;
         Ok(table)
     }
 
     /// Most bytes of the footer after so many groups.
     fn footer(&self, groups: u64) -> u64 {
-        let columns = self.held.len() as u64;
+        let columns = self.contents.len() as u64;
         let [schema, of_a_group] = self.texts;
         4096 + schema + 64 * columns + groups * (64 + of_a_group + ENTRY * columns)
     }
 
-    fn reserve(&mut self, bytes: u64) -> Result<(), Failure> {
-        let reserved = self.writer.inner_mut().reserve(bytes);
-        reserved.map_err(|error| Failure::file(&self.path, &error))
+    /// Reserves room for a group of so many rows, and for the footer.
+    fn make_room(&mut self, rows: usize) -> Result<(), Failure> {
+        let (rows, columns) = (rows as u64, self.contents.len() as u64);
+        // What Snappy makes of noise is longer than the noise, by up to a sixth; pages have a head.
+        let group = columns * (rows * 8 * 7 / 6 + 512);
+        let needed = group + self.footer(self.groups + 1);
+        let reserved = self.writer.inner_mut().reserve(needed);
+        reserved.map_err(|error| Failure::file(&self.path, &error))?;
+        self.room = rows as usize;
+        Ok(())
     }
 
     /// Writes what is held as a group.
     fn write_group(&mut self) -> Result<(), Failure> {
-        let columns = self.held.len() as u64;
-        // What Snappy makes of noise is longer than the noise, by up to a sixth; pages have a head.
-        let group = columns * (self.held_rows * 8 * 7 / 6 + 512);
-        self.reserve(group + self.footer(self.groups + 1))?;
+        let rows = self.held.rows();
+        let width = (BLOCK / (8 * rows)).max(1);
+        let (contents, held) = (&self.contents, &mut self.held);
         let written = self.writer.next_row_group().and_then(|mut group| {
-            for held in &mut self.held {
-                held.write_into(&mut group)?;
+            for first in (0..contents.len()).step_by(width) {
+                let columns = first..(first + width).min(contents.len());
+                let block = held.block(&columns)?;
+                for (index, content) in contents[columns.clone()].iter().enumerate() {
+                    let numbers = block.iter().skip(index).step_by(columns.len()).copied();
+                    write_column(&mut group, *content, numbers)?;
+                }
             }
             group.close()
         });
         written.map_err(|error| Failure::file(&self.path, &of_parquet(error)))?;
         self.groups += 1;
-        self.rows += self.held_rows;
-        self.held_rows = 0;
+        self.rows += rows as u64;
+        self.held.clear();
+        self.room = 0;
         Ok(())
     }
 
@@ -134,28 +166,27 @@ impl ParquetTable {
 
 impl Table for ParquetTable {
     fn write(&mut self, row: &[Value]) -> Result<(), Failure> {
-        for (held, value) in self.held.iter_mut().zip(row) {
-            match (held, *value) {
-                (Held::Reals(reals), Value::Real(real)) => reals.push(real),
-                (Held::Reals(reals), Value::Integer(integer)) => reals.push(integer as f64),
-                (Held::Integers(integers), Value::Integer(integer)) => integers.push(integer),
-                (Held::Integers(integers), Value::Real(real)) => integers.push(real as i64),
-            }
+        if self.held.rows() == self.room {
+            let more = (RESERVED / (8 * self.contents.len())).max(1);
+            self.make_room((self.room + more).min(self.group))?;
         }
-        self.held_rows += 1;
-        if self.held_rows < self.group {
+        let numbers = row
+            .iter()
+            .zip(&self.contents)
+            .map(|(value, content)| bits(*value, *content));
+        let held = self.held.push(numbers);
+        held.map_err(|error| Failure::file(&self.path, &error))?;
+        if self.held.rows() < self.group {
             return Ok(());
         }
         self.write_group()
     }
 
     fn finish(&mut self) -> Result<(), Failure> {
-        let grouped = match self.held_rows {
+        let grouped = match self.held.rows() {
             0 => Ok(()),
             _ => self.write_group(),
         };
-        self.held.iter_mut().for_each(Held::free);
-        self.held_rows = 0;
         let closed = self.close().map_err(|error| Failure::file(&self.path, &error));
         if closed.is_ok() {
             self.readable = self.rows;
@@ -168,43 +199,42 @@ impl Table for ParquetTable {
     }
 }
 
-impl Held {
-    fn of(column: &Column) -> Self {
-        match column.content {
-            Content::Real => Self::Reals(Vec::new()),
-            Content::Integer | Content::Long => Self::Integers(Vec::new()),
-        }
-    }
-
-    fn write_into(&mut self, group: &mut SerializedRowGroupWriter<'_, ReservedFile>) -> Result<(), ParquetError> {
-        let missing = || ParquetError::General("a column too many".into());
-        let mut column = group.next_column()?.ok_or_else(missing)?;
-        match self {
-            Self::Reals(reals) => {
-                column.typed::<DoubleType>().write_batch(reals, None, None)?;
-                reals.clear();
-            }
-            Self::Integers(integers) => {
-                column.typed::<Int64Type>().write_batch(integers, None, None)?;
-                integers.clear();
-            }
-        }
-        column.close()
-    }
-
-    fn free(&mut self) {
-        match self {
-            Self::Reals(reals) => *reals = Vec::new(),
-            Self::Integers(integers) => *integers = Vec::new(),
-        }
+/// A number as it is held.
+fn bits(value: Value, content: Content) -> u64 {
+    match (content, value) {
+        (Content::Real, Value::Real(real)) => real.to_bits(),
+        (Content::Real, Value::Integer(integer)) => (integer as f64).to_bits(),
+        (Content::Integer | Content::Long, Value::Integer(integer)) => integer.cast_unsigned(),
+        (Content::Integer | Content::Long, Value::Real(real)) => (real as i64).cast_unsigned(),
     }
 }
 
-/// Rows that are held: as many as make them and the footer of `rows` rows together smallest.
-fn rows_of_a_group(columns: u64, rows: u64) -> u64 {
-    let row = 8 * columns;
-    let balanced = (rows.saturating_mul(FOOTER_OF_A_COLUMN) / 8).isqrt();
-    balanced.clamp((LEAST_HELD / row).max(1), (MOST_HELD / row).max(1))
+fn write_column(
+    group: &mut SerializedRowGroupWriter<'_, ReservedFile>,
+    content: Content,
+    numbers: impl Iterator<Item = u64>,
+) -> Result<(), ParquetError> {
+    let missing = || ParquetError::General("a column too many".into());
+    let mut column = group.next_column()?.ok_or_else(missing)?;
+    match content {
+        Content::Real => {
+            let reals: Vec<f64> = numbers.map(f64::from_bits).collect();
+            column.typed::<DoubleType>().write_batch(&reals, None, None)?;
+        }
+        Content::Integer | Content::Long => {
+            let integers: Vec<i64> = numbers.map(u64::cast_signed).collect();
+            column.typed::<Int64Type>().write_batch(&integers, None, None)?;
+        }
+    }
+    column.close()
+}
+
+/// The folder of a file.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
 }
 
 fn schema(columns: &[Column]) -> Result<Type, ParquetError> {
@@ -247,5 +277,58 @@ fn of_parquet(error: ParquetError) -> io::Error {
             Err(other) => io::Error::other(other),
         },
         other => io::Error::other(other),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use jostle::scene::Unit;
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::RowAccessor;
+
+    use super::*;
+
+    fn columns() -> Vec<Column> {
+        vec![
+            Column::real("time", Unit::SECOND, "Time"),
+            Column::integer("count", "Count"),
+            Column::real("x", Unit::METRE, "Place"),
+        ]
+    }
+
+    fn row(number: i64) -> [Value; 3] {
+        let real = number as f64;
+        [Value::Real(0.1 * real), Value::Integer(-number), Value::Real(-real)]
+    }
+
+    #[test]
+    fn groups_that_are_held_in_a_file_have_all_rows_in_order() {
+        let path = std::env::temp_dir().join(format!("jostle-groups-{}.parquet", std::process::id()));
+        let held = HeldRows::in_file(3, folder_of(&path)).unwrap();
+        let mut table = ParquetTable::in_groups(&path, &columns(), &[], 4, held).unwrap();
+        for number in 0..10 {
+            table.write(&row(number)).unwrap();
+        }
+        assert_eq!(table.whole_rows(), 0); // no footer yet
+        table.finish().unwrap();
+        assert_eq!(table.whole_rows(), 10);
+        let reader = SerializedFileReader::new(std::fs::File::open(&path).unwrap()).unwrap();
+        let rows_of_groups: Vec<i64> = reader
+            .metadata()
+            .row_groups()
+            .iter()
+            .map(|group| group.num_rows())
+            .collect();
+        assert_eq!(rows_of_groups, [4, 4, 2]);
+        for (number, found) in (0..).zip(reader.get_row_iter(None).unwrap()) {
+            let found = found.unwrap();
+            let values = [
+                Value::Real(found.get_double(0).unwrap()),
+                Value::Integer(found.get_long(1).unwrap()),
+                Value::Real(found.get_double(2).unwrap()),
+            ];
+            assert_eq!(values, row(number));
+        }
+        std::fs::remove_file(path).unwrap();
     }
 }

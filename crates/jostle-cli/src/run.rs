@@ -218,7 +218,7 @@ fn how_to_go_on(options: &Run, simulation: &dyn DynSimulation) -> String {
     };
     match save(&path, simulation) {
         Ok(()) => format!(
-            "\nThe state is in {path}. To go on, give the same command with --resume {path} and another --output, without --set.",
+            "\nThe state is in {path}. To go on, give the same command without --set, with --resume {path} and other files.",
             path = path.display()
         ),
         Err(failure) => format!("\nThe state could not be saved: {failure}"),

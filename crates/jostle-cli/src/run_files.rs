@@ -56,6 +56,15 @@ impl FileNames {
             let remedy = "Name another --output; its rows follow those of the first.";
             return Err(Error::parameter("--output", self.output.display(), allowed, remedy));
         }
+        if let Some(path) = self
+            .trajectory
+            .as_deref()
+            .filter(|path| resumed.is_some() && path.is_file())
+        {
+            let allowed = "a file that is not there yet, since it may hold the frames of the saved run";
+            let remedy = "Name another --trajectory; its frames follow those of the first.";
+            return Err(Error::parameter("--trajectory", path.display(), allowed, remedy));
+        }
         Ok(format)
     }
 

@@ -182,7 +182,9 @@ fn what_cannot_be_resumed_is_refused() {
     assert!(saved.status.success(), "{}", text(&saved.stderr));
     std::fs::write(path("broken.state"), "no state").unwrap();
     let (broken, nowhere, other) = (path("broken.state"), path("nowhere.state"), path("b.csv"));
-    let cases: [(&[&str], &str); 6] = [
+    let frames = path("a.xyz");
+    std::fs::write(&frames, "of the saved run").unwrap();
+    let cases: [(&[&str], &str); 7] = [
         (
             &["--seconds", "0.1", "--output", &other, "--resume", &state],
             "--seconds = 0.1 is not allowed: above 0.1 s",
@@ -190,6 +192,19 @@ fn what_cannot_be_resumed_is_refused() {
         (
             &["--seconds", "1", "--output", &first, "--resume", &state],
             "whose rows it would replace",
+        ),
+        (
+            &[
+                "--seconds",
+                "1",
+                "--output",
+                &other,
+                "--resume",
+                &state,
+                "--trajectory",
+                &frames,
+            ],
+            "may hold the frames of the saved run",
         ),
         (
             &["--seconds", "1", "--output", &other, "--resume", &nowhere],

@@ -224,3 +224,26 @@ impl Trajectory {
         &self.path
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clock;
+
+    #[test]
+    fn a_scene_that_does_not_say_where_its_disks_are_is_refused_by_name() {
+        let mut clock = clock::prepare(2);
+        clock.start(0.0).unwrap();
+        let path = std::env::temp_dir().join(format!("jostle-no-places-{}.xyz", std::process::id()));
+        let refused = Trajectory::create(&path, TrajectoryFormat::ExtendedXyz, &clock)
+            .err()
+            .unwrap();
+        assert_eq!(refused.exit_code(), 2);
+        let message = refused.to_string();
+        assert!(
+            message.starts_with("--trajectory = ") && message.contains("disk.x and disk.y"),
+            "{message}"
+        );
+        assert!(message.contains("clock") && !path.exists(), "{message}");
+    }
+}

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import ase.io
 import numpy as np
+import pandas as pd
 import polars as pl
 import pytest
 import xarray as xr
@@ -52,7 +53,7 @@ def test_a_seed_of_64_bits_is_kept_as_text(jostle: Path, tmp_path: Path) -> None
         assert found.attrs["seed"] == seed
 
 
-def test_parquet_is_read_by_polars_as_csv_is(jostle: Path, tmp_path: Path) -> None:
+def test_parquet_is_read_by_pandas_and_polars_as_csv_is(jostle: Path, tmp_path: Path) -> None:
     words = ["three_disk", "--seconds", "0.3", "--sample", "0.001"]
     for name in ("run.csv", "run.parquet"):
         run(jostle, words, "--output", tmp_path / name)
@@ -60,6 +61,8 @@ def test_parquet_is_read_by_polars_as_csv_is(jostle: Path, tmp_path: Path) -> No
     assert found.columns == expected.columns
     assert found["slips"].dtype == pl.Int64
     assert found.cast(pl.Float64).equals(expected.cast(pl.Float64))
+    table = pd.read_parquet(tmp_path / "run.parquet")
+    np.testing.assert_array_equal(table.to_numpy(float), found.cast(pl.Float64).to_numpy())
     told = pl.read_parquet_metadata(tmp_path / "run.parquet")
     assert (told["scene"], told["engine"]) == ("three_disk", "molecular-dynamics")
     assert told["units/disk.angle[1]"] == "rad"

@@ -273,7 +273,7 @@ class Simulation:
         Raises:
             StepError: a step cannot be done. The samples before it are in the attribute `partial` of the exception, and
                 of whatever else stops the sampling, `KeyboardInterrupt` too; the simulation stands at the last of them.
-                Ctrl-C is noticed after each sample.
+                Ctrl-C ends the step under way, which is then not done.
             ParameterError, NoVariableError: an argument that is not allowed.
 
         """

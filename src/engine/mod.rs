@@ -5,6 +5,7 @@ pub mod dem;
 mod disk_motion;
 pub mod disk_on_two_supports;
 pub mod event_driven;
+mod interruption;
 pub mod wedge;
 pub mod work_budget;
 
@@ -13,6 +14,7 @@ use serde::de::DeserializeOwned;
 
 pub use contact_now::{ContactNow, Touched};
 pub use disk_motion::DiskMotion;
+pub use interruption::{Question, interruptible};
 pub use work_budget::{MOST_WORK_IN_A_CALL, WorkBudget};
 
 /// What a scene needs of an engine.

@@ -3,7 +3,7 @@
 //! Not here: SIGHUP, which `nohup` must go on to keep away.
 
 use std::io;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -36,6 +36,16 @@ impl Signal {
     }
 }
 
+/// What the process has received, for whom asks without an [`Interruption`].
+static RECEIVED: OnceLock<Arc<AtomicUsize>> = OnceLock::new();
+
+/// Whether a signal came: what an engine asks in the midst of a long step.
+pub fn is_wanted() -> bool {
+    RECEIVED
+        .get()
+        .is_some_and(|received| received.load(Ordering::Relaxed) != 0)
+}
+
 /// Whether the run shall end.
 #[derive(Debug, Default)]
 pub struct Interruption {
@@ -56,6 +66,7 @@ impl Interruption {
             flag::register(signal, Arc::clone(&again))?;
             flag::register_usize(signal, Arc::clone(&listener.received), signal as usize)?;
         }
+        RECEIVED.get_or_init(|| Arc::clone(&listener.received));
         Ok(listener)
     }
 

@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use clap::Args;
 use jostle::Error;
+use jostle::engine::interruptible;
 use jostle::scene::DynSimulation;
 use jostle::scene::catalogue::sine_if_known;
 
@@ -18,7 +19,7 @@ use crate::output_file::{self, Format};
 use crate::run_files::{FileNames, Files};
 use crate::sample_times::SampleTimes;
 use crate::selection::{self, Selected, Selection};
-use crate::{assignments, progress, standard_output, text};
+use crate::{assignments, interruption, progress, standard_output, text};
 
 /// Runs a scene and writes its outputs to a file, with a progress bar.
 ///
@@ -196,8 +197,12 @@ fn advance(
             bar.abandon();
             return Ok(Some(signal));
         }
-        let advanced = simulation.advance_to(times.at(row)).map_err(Failure::from);
-        let written = advanced.and_then(|()| files.write(times, row, simulation));
+        let (advanced, ended) = interruptible(interruption::is_wanted, || simulation.advance_to(times.at(row)));
+        if ended && let Some(signal) = interruption.received() {
+            bar.abandon();
+            return Ok(Some(signal)); // the step has not been done
+        }
+        let written = advanced.map_err(Failure::from).and_then(|()| files.write(times, row, simulation));
         written.inspect_err(|_| bar.abandon())?;
         bar.inc(1);
     }

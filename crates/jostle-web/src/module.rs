@@ -1,20 +1,9 @@
 //! The simulations of a page, by number.
 
-use jostle::scene::packing::PackingOnSine;
-use jostle::scene::ratchet::RatchetOnSine;
-use jostle::scene::wedge::WedgeEventDrivenOnSine;
 use jostle::{Error, Result};
 
-use crate::shown::{Scene, Shown};
+use crate::shown::{SCENES, Shown};
 use crate::text;
-
-/// What the page can show: one engine of each scene in which one sees disks move, driven by a sine. More would make the
-/// module larger than a page should load.
-pub const SCENES: [Scene; 3] = [
-    Scene::of::<PackingOnSine>(),
-    Scene::of::<RatchetOnSine>(),
-    Scene::of::<WedgeEventDrivenOnSine>(),
-];
 
 /// Simulations by number, and the buffers through which the page talks with them.
 #[derive(Default)]
@@ -144,6 +133,8 @@ fn started(given: &str) -> Result<Box<dyn Shown>> {
 
 #[cfg(test)]
 mod tests {
+    use jostle::scene::packing::PackingOnSine;
+
     use super::*;
 
     fn opened(module: &mut Module, text: &str) -> Result<usize> {

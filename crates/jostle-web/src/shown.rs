@@ -3,6 +3,9 @@
 //! Not [`DynSimulation`](jostle::scene::DynSimulation): what that can do besides, such as states as bytes, would double the module.
 
 use jostle::Result;
+use jostle::scene::packing::PackingOnSine;
+use jostle::scene::ratchet::RatchetOnSine;
+use jostle::scene::wedge::WedgeEventDrivenOnSine;
 use jostle::scene::{Listed, Model, ModelInfo, Simulation, StructuralParameters, Table, Value, Warning};
 
 /// The methods of [`Simulation`] that the page needs, without its type.
@@ -74,3 +77,11 @@ impl Scene {
         Ok((self.prepare)(structure))
     }
 }
+
+/// What the page can show: one engine of each scene in which one sees disks move, driven by a sine. More would make the
+/// module larger than a page should load.
+pub const SCENES: [Scene; 3] = [
+    Scene::of::<PackingOnSine>(),
+    Scene::of::<RatchetOnSine>(),
+    Scene::of::<WedgeEventDrivenOnSine>(),
+];

@@ -4,8 +4,7 @@ use jostle::scene::catalogue::Names;
 use jostle::scene::{Kind, Value};
 use jostle::{Error, Result};
 
-use crate::module::SCENES;
-use crate::shown::Shown;
+use crate::shown::{SCENES, Shown};
 
 /// Scene, engine, drive, fewest, most and usual number of disks, description.
 pub fn scenes() -> String {

@@ -243,7 +243,7 @@ impl<S: Stepper, D: Drive> FixedGrid<S, D> {
             return Err(Breakdown::TooManySteps { time, steps, most });
         }
         self.backup.clone_from(&self.state);
-        let outcome = self.run_sampled(end_time, sampler);
+        let outcome = self.run_sampled(end_time, sampler, budget);
         if outcome.is_err() {
             std::mem::swap(&mut self.state, &mut self.backup);
         }
@@ -251,17 +251,40 @@ impl<S: Stepper, D: Drive> FixedGrid<S, D> {
     }
 
     /// What the sampler sees is never the state that outputs show: that stays where it is if the step is refused.
-    fn run_sampled(&mut self, end_time: f64, sampler: &mut impl Sampler) -> Result<(), Breakdown> {
+    fn run_sampled(&mut self, end_time: f64, sampler: &mut impl Sampler, budget: &WorkBudget) -> Result<(), Breakdown> {
         while sampler.due() <= end_time {
             let time = sampler.due();
             let target = self.steps_until(time) as u64;
-            self.stepper.run(&mut self.state, target)?;
+            self.run(target, budget)?;
             let state = if self.reach(time)? { &self.spare } else { &self.state };
             sampler.take(self.stepper.motion(&state.disks).0);
         }
         let target = self.steps_until(end_time) as u64;
-        self.stepper.run(&mut self.state, target)?;
+        self.run(target, budget)?;
         self.sample_at(end_time)
+    }
+
+    /// Runs until `target` steps are done, in parts if somebody may want it to end.
+    fn run(&mut self, target: u64, budget: &WorkBudget) -> Result<(), Breakdown> {
+        let Some(work) = budget.work_between_questions() else {
+            return self.stepper.run(&mut self.state, target);
+        };
+        let work_of_step = S::WORK_OF_STEP * self.radii().len() as f64;
+        let steps = (work as f64 / work_of_step).max(1.0) as u64;
+        while self.state.steps < target {
+            let part = target.min(self.state.steps.saturating_add(steps));
+            self.stepper.run(&mut self.state, part)?;
+            if self.state.steps < target && budget.is_interrupted() {
+                let (time, left) = (self.time(), (target - self.state.steps) as f64);
+                let most = budget.most() as f64 / work_of_step;
+                return Err(Breakdown::TooManySteps {
+                    time,
+                    steps: left,
+                    most,
+                });
+            }
+        }
+        Ok(())
     }
 }
 

@@ -3,8 +3,10 @@
 import copy
 import csv
 import multiprocessing
+import os
 import pickle
 import re
+import signal
 import subprocess
 import threading
 import time
@@ -242,3 +244,21 @@ def test_every_element_of_every_scene_is_found_by_its_name(row: Any) -> None:
     variables = grouped(Core(row.scene, row.engine, row.drive, None).variables())
     found = [find(variables, name, row.scene) for name in names]
     assert [variable.positions[element or 0] for variable, element in found] == list(range(len(names)))
+
+
+@pytest.mark.parametrize(
+    ("scene", "engine"), [("packing", None), ("packing", "molecular-dynamics-located"), ("ratchet", None), ("wedge", "map")]
+)
+def test_ctrl_c_ends_a_long_step_as_if_it_had_not_begun(scene: str, engine: str | None) -> None:
+    simulation = jostle.Simulation(scene, engine=engine, **{"work.limit": 1e15})
+    simulation.limit_work(10**15)
+    simulation.run(0.02, every=0.01, outputs=[])
+    before, twin = simulation.to_bytes(), copy.copy(simulation)
+    timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        simulation.step(1e4)  # minutes
+    assert simulation.to_bytes() == before
+    for one in (simulation, twin):
+        one.step(0.1)
+    assert simulation.to_bytes() == twin.to_bytes()

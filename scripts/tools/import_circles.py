@@ -77,7 +77,7 @@ def import_circles(
     root: Annotated[Path, typer.Argument(help="Folder with the crates.")] = ROOT,
 ) -> None:
     """Look for Rust files that import each other in a circle."""
-    sources = [path for path in sorted(root.glob("**/src")) if not {"target", ".venv"} & set(path.parts)]
+    sources = [path for path in sorted(root.glob("**/src")) if not {"target", ".venv", "build"} & set(path.parts)]
     found = {source: circle(source) for source in sources}
     circles = [
         f"{source.relative_to(root)}: " + " -> ".join("::".join(module) for module in modules)

@@ -202,7 +202,9 @@ fn advance(
             bar.abandon();
             return Ok(Some(signal)); // the step has not been done
         }
-        let written = advanced.map_err(Failure::from).and_then(|()| files.write(times, row, simulation));
+        let written = advanced
+            .map_err(Failure::from)
+            .and_then(|()| files.write(times, row, simulation));
         written.inspect_err(|_| bar.abandon())?;
         bar.inc(1);
     }

@@ -21,6 +21,7 @@ from jostle.errors import (
     StateError,
     StepError,
 )
+from jostle.installed import fmu, program
 from jostle.simulation import Simulation
 
 if TYPE_CHECKING:
@@ -40,6 +41,8 @@ __all__ = [
     "StateError",
     "StepError",
     "__version__",
+    "fmu",
+    "program",
     "scenes",
 ]
 

@@ -247,7 +247,8 @@ def test_every_element_of_every_scene_is_found_by_its_name(row: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("scene", "engine"), [("packing", None), ("packing", "molecular-dynamics-located"), ("ratchet", None), ("wedge", "map")]
+    ("scene", "engine"),
+    [("packing", None), ("packing", "molecular-dynamics-located"), ("ratchet", None), ("wedge", "map")],
 )
 def test_ctrl_c_ends_a_long_step_as_if_it_had_not_begun(scene: str, engine: str | None) -> None:
     simulation = jostle.Simulation(scene, engine=engine, **{"work.limit": 1e15})

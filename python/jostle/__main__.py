@@ -1,0 +1,5 @@
+"""`python -m jostle`: the command line."""
+
+from jostle.installed import main
+
+main()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from jostle_lab.runs.laboratory import Laboratory
-from jostle_lab.runs.limits import parameters
+from jostle_lab.runs.limits import of_program
 from jostle_lab.statistics.estimates import Estimate, Numbers
 from jostle_lab.statistics.rotation import RPM, rotation
 from jostle_lab.verdicts import Verdict, near
@@ -100,7 +100,7 @@ def test_steadiness_is_that_of_angles_once_a_second_whatever_the_picture_shows(l
     assert abs(every_fifth - once_a_second) > 0.05
     # No figure sets another interval than the program's own.
     assert "measure.interval" not in dict(fine.run().settings)
-    assert parameters(laboratory.program, fine.run())["measure.interval"][0] < 1.0
+    assert of_program(laboratory.program)(fine.run(), None)["measure.interval"][0] < 1.0
 
 
 def test_the_same_way_for_good_is_told_from_chance() -> None:

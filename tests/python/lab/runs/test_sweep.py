@@ -215,7 +215,7 @@ def test_a_broken_part_is_named(tmp_path: Path) -> None:
 
 
 def command(folder: Path, *others: str) -> list[str]:
-    words = [sys.executable, "-m", "jostle_lab", "sweep", "--scene", "ratchet", "--seconds", "15", "--seeds", "40"]
+    words = [sys.executable, "-m", "jostle_lab", "sweep", "--scene", "ratchet", "--seconds", "60", "--seeds", "40"]
     words += ["--grid", "disks=10,20", "--set", "tooth.height=3e-3", "--results", str(folder), "--no-progress"]
     return [*words, "--processes", "1", *others]
 
@@ -247,7 +247,7 @@ def test_killed_in_the_middle_and_resumed(tmp_path: Path, package: Package) -> N
     assert {key: after[key] for key in before} == before
     assert sorted({row["seed"] for row in after.values()}) == list(range(1, 41))
     whole = sweep(tmp_path / "whole", package).run(
-        Grid("ratchet", 15.0, seeds=tuple(range(1, 6)), fixed={"tooth.height": 3e-3}, axes={"disks": (10,)}).runs()
+        Grid("ratchet", 60.0, seeds=tuple(range(1, 6)), fixed={"tooth.height": 3e-3}, axes={"disks": (10,)}).runs()
     )
     for row in whole.values():
         assert row["transport_velocity"] == after[row["key"]]["transport_velocity"]

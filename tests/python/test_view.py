@@ -187,6 +187,36 @@ def test_what_is_wrong_is_said_and_nothing_changes(page: Page, html: Path) -> No
         assert page.evaluate("window.jostle.source.radius.length") == 60
 
 
+def test_too_much_for_a_page_is_said_and_the_page_goes_on(page: Page, html: Path) -> None:
+    for link in ("#scene=packing&contact.normal_stiffness=1e15", "#scene=packing&contact.normal_damping=1e6"):
+        page.goto("about:blank")
+        opened(page, html, link)
+        page.wait_for_function("document.getElementById('message').textContent.includes('too many time steps')")
+    opened(page, html)
+    set_number(page, "disks", 100_000)
+    assert "at most 2000" in (page.text_content("#message") or "")
+    page.evaluate("window.jostle.source.advance(0.1, 1e9)")
+    page.fill("#sample", "1e-9")
+    page.click("#export")
+    page.wait_for_function("document.getElementById('message').textContent.includes('the page saves at most')")
+
+
+def test_a_recorded_run_starts_again(page: Page, html: Path, fmu3: Path) -> None:
+    opened(page, html)
+    page.set_input_files("#files", [fmu3])
+    page.wait_for_selector("body.replay")
+    assert page.input_value("#scene") == ""
+    page.evaluate("window.jostle.source.advance(1e9); window.jostle.advance(0)")
+    assert page.text_content("#pause") == "Run"
+    end = page.evaluate("window.jostle.source.time")
+    page.click("#pause")
+    assert page.evaluate("window.jostle.source.time") < end
+    page.click("#restart")
+    assert page.evaluate("document.body.classList.contains('replay')")
+    page.select_option("#scene", "packing")
+    assert not page.evaluate("document.body.classList.contains('replay') || window.jostle.paused")
+
+
 def test_recorded_runs_are_played(page: Page, html: Path, tmp_path: Path) -> None:
     run = tmp_path / "run.csv"
     arguments = ["run", "packing", "--disks", "15", "--seconds", "0.3", "--output", run, "--no-progress"]

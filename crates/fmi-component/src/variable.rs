@@ -189,11 +189,12 @@ impl Variable {
         let in_range = "Give a value in this range.";
         let (value, allowed, remedy) = match (&self.kind, value) {
             (Kind::Real(quantity), Value::Real(real)) => {
-                let allowed = format!(
-                    "a finite number from {} to {}",
-                    Value::Real(quantity.min),
-                    Value::Real(quantity.max)
-                );
+                let bounds = [quantity.min, quantity.max];
+                let allowed = match bounds.map(|bound| (bound.is_finite(), Value::Real(bound))) {
+                    [(false, _), (false, _)] => "a finite number".into(),
+                    [(true, low), (false, _)] => format!("a finite number, {low} or more"),
+                    [(_, low), (_, high)] => format!("a finite number from {low} to {high}"),
+                };
                 (quantity.unit.format(real), allowed, in_range)
             }
             (Kind::Integer { range, .. } | Kind::Long { range, .. }, Value::Integer(integer)) => {

@@ -13,6 +13,10 @@ import { Live, Played } from "jostle/sources";
 const $ = (id) => document.getElementById(id);
 /** Most milliseconds of a frame that the engine may take: the rest is for drawing. */
 const PATIENCE = 11;
+/** Smallest spin [rad/s] and speed [m/s] that has the full colour. */
+const SMALLEST = 0.01;
+/** How long a recorded run takes on the screen at first [s]. */
+const LENGTH = 10;
 
 class App {
   constructor(module) {
@@ -21,7 +25,9 @@ class App {
     this.stage = new Stage($("stage"));
     this.paused = false;
     this.frames = 0;
-    $("scene").append(...this.scenes.map(({ scene }) => new Option(scene, scene)));
+    const played = new Option("recorded run", "");
+    played.hidden = true;
+    $("scene").append(played, ...this.scenes.map(({ scene }) => new Option(scene, scene)));
     this.listen();
     this.follow(location.hash || document.documentElement.dataset.start);
     if ($("samples")) this.play(embedded());
@@ -53,7 +59,6 @@ class App {
     }
     if (usual !== undefined && !("drive.amplitude" in this.state.given)) this.change("gamma", usual);
     if (refused) this.say(refused);
-    $("scene").value = scene;
     this.build();
   }
 
@@ -95,9 +100,9 @@ class App {
   }
 
   show(source) {
-    this.source?.close();
+    if (this.source !== source) this.source?.close();
     this.source = source;
-    this.scale = new Scale(1e-9);
+    this.scale = new Scale(SMALLEST);
     this.say(source.warnings);
     const disks = source.radius.length;
     this.angles = new Series(Math.min(disks, 60));
@@ -106,9 +111,24 @@ class App {
     const live = source instanceof Live;
     document.body.classList.toggle("replay", !live);
     document.body.classList.toggle("no-contacts", !live || !source.simulation.has("contacts"));
-    $("time-slider").max = live ? 1 : source.end;
+    $("scene").value = live ? source.scene : "";
+    if (!live) {
+      Object.assign($("time-slider"), { min: source.time, max: source.end });
+      const slow = LENGTH / Math.max(1e-9, source.end - source.time);
+      const options = [...$("slow").options].map(({ value }) => Number(value));
+      $("slow").value = options.reduce((best, one) => (Math.abs(Math.log(one / slow)) < Math.abs(Math.log(best / slow)) ? one : best));
+      this.pause(false);
+    }
     history.replaceState(null, "", live ? this.link() : location.pathname + location.search);
     this.look();
+  }
+
+  /** From the start: a scene with its parameters, a recorded run with its first sample. */
+  again() {
+    if (this.source instanceof Live) return this.restart();
+    this.source.rewind();
+    this.show(this.source);
+    return true;
   }
 
   play(files) {
@@ -139,7 +159,8 @@ class App {
       source.advance(wanted, PATIENCE);
     } catch (error) {
       this.pause(true);
-      this.say(error.message);
+      const much = error.message.includes("more than one call may do");
+      this.say(much ? "This scene takes too many time steps for a page: stiff or damped contacts make the time step small. jostle run can do it." : error.message);
     }
     if (source.time >= source.end) this.pause(true);
     $("late").hidden = !(source.time < Math.min(wanted, source.end) - 1e-12);
@@ -165,12 +186,14 @@ class App {
     const digits = (number) => +number.toPrecision(2);
     const turns = digits((60 * size) / (2 * Math.PI));
     const texts = {
-      spin: `blue: counter-clockwise, red: clockwise; full colour at ${turns} turns a minute`,
-      speed: `white: at rest, full blue at ${digits(100 * size)} cm/s`,
+      spin: `blue: counter-clockwise, red: clockwise; full colour at ${digits(size)} rad/s, ${turns} turns a minute. `,
+      speed: `white: at rest, full blue at ${digits(100 * size)} cm/s. `,
       none: "",
     };
-    $("legend").textContent = texts[colour];
-    $("gamma-now").textContent = this.source.value("drive.amplitude") === undefined ? "" : `Gamma = ${this.gamma().toFixed(2)}`;
+    const lines = this.source instanceof Live && this.source.thick > 0 && $("chains").checked;
+    $("legend").textContent = texts[colour] + (lines ? `A line of force as thick as the ruler: ${digits(this.source.thick)} N.` : "");
+    const gamma = this.source.value("drive.amplitude") === undefined ? NaN : this.gamma();
+    $("gamma-now").textContent = Number.isFinite(gamma) ? `Gamma = ${gamma.toFixed(2)}` : "";
   }
 
   measure({ x, angle, time }) {
@@ -191,9 +214,20 @@ class App {
     $("pause").textContent = paused ? "Run" : "Pause";
   }
 
+  /** Pauses, or goes on; at the end of a recorded run from its start. */
+  goOn() {
+    if (this.paused && this.source.time >= this.source.end) this.again();
+    else this.pause(!this.paused);
+  }
+
   step() {
     this.pause(true);
     this.advance(1 / 60 / Number($("slow").value));
+  }
+
+  /** What is said now. */
+  message() {
+    return $("message").textContent;
   }
 
   say(text) {
@@ -207,16 +241,24 @@ class App {
   }
 
   async export() {
+    if (this.busy) {
+      this.cancelled = true;
+      return;
+    }
     const end = Number(this.source.time.toFixed(9));
     if (!(end > 0)) return this.say("Nothing has run yet: run or step first.");
     const sample = Number($("sample").value);
-    if (!(sample > 0)) return this.say(`The time from row to row is ${$("sample").value}: give seconds above 0, such as 0.01.`);
+    if (!(sample > 0)) return this.say("The time from row to row: give seconds above 0, such as 0.01.");
     this.busy = true;
+    this.cancelled = false;
+    $("export").textContent = "Cancel";
     try {
       const files = await recorded(this.module, this.state, end, sample, async (share) => {
         this.say(`Computing the run from its start: ${Math.round(100 * share)} %`);
         await new Promise((done) => setTimeout(done));
+        return !this.cancelled;
       });
+      if (files === null) return this.say("Cancelled: nothing is saved.");
       save("run.csv", files.samples);
       save("run.parameters.csv", files.parameters);
       this.say(`Saved run.csv and run.parameters.csv. The same run: ${command(this.state, end, sample)}`);
@@ -224,20 +266,22 @@ class App {
       this.say(error.message);
     } finally {
       this.busy = false;
+      $("export").textContent = "Save the run";
     }
   }
 
   listen() {
-    const click = { pause: () => this.pause(!this.paused), step: () => this.step(), restart: () => this.restart(), export: () => this.export() };
+    const click = { pause: () => this.goOn(), step: () => this.step(), restart: () => this.again(), export: () => this.export() };
     for (const [id, action] of Object.entries(click)) $(id).addEventListener("click", action);
     $("scene").addEventListener("change", () => {
       $("slow").value = SLOWNESS[$("scene").value];
+      this.pause(false);
       const { scene, usual } = this.scenes.find((row) => row.scene === $("scene").value);
       this.choose(scene, usual, {});
     });
     for (const id of ["slow", "colour", "chains"]) {
       $(id).addEventListener("change", () => {
-        this.scale = new Scale(1e-9);
+        this.scale = new Scale(SMALLEST);
         if (this.source instanceof Live) history.replaceState(null, "", this.link());
         this.look();
       });
@@ -257,9 +301,9 @@ class App {
     window.addEventListener("resize", () => this.look());
     window.addEventListener("keydown", ({ key, target }) => {
       if (["INPUT", "SELECT", "BUTTON", "SUMMARY"].includes(target.tagName)) return;
-      if (key === " ") this.pause(!this.paused);
+      if (key === " ") this.goOn();
       if (key === "s") this.step();
-      if (key === "r") this.restart();
+      if (key === "r") this.again();
     });
   }
 }

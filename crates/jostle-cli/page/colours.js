@@ -18,18 +18,26 @@ export function sequential(share) {
   return mixed(ENDS.middle, ENDS.high, Math.max(0, Math.min(1, Number.isFinite(share) ? share : 0)));
 }
 
-/** A scale that follows the numbers: it grows at once and shrinks slowly, so that colours do not flicker. */
+/** A scale that follows the numbers in steps of 1, 2, 5, 10, so that a colour means the same for a while. */
 export class Scale {
   constructor(smallest) {
     this.smallest = smallest;
     this.size = smallest;
+    this.low = 0;
   }
 
-  /** Includes these numbers and returns the size. */
+  /** Includes these numbers and returns the size. It grows at once, and shrinks when a second of frames asked for less. */
   include(numbers) {
     const sizes = Array.from(numbers, Math.abs).sort((a, b) => a - b);
-    const large = sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0;
-    this.size = Math.max(this.smallest, large, 0.995 * this.size);
+    const large = Math.max(this.smallest, sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0);
+    this.low = large < 0.3 * this.size ? this.low + 1 : 0;
+    if (large > this.size || this.low > 60) this.size = rounded(large);
     return this.size;
   }
+}
+
+/** The next of 1, 2, 5 times a power of ten. */
+function rounded(size) {
+  const power = 10 ** Math.floor(Math.log10(size));
+  return power * ([1, 2, 5].find((digit) => digit * power >= size) ?? 10);
 }

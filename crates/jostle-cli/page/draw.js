@@ -90,16 +90,16 @@ export class Stage {
     context.fill();
   }
 
-  chains({ contacts, x, y }) {
+  /** Lines from centre to centre, in proportion to the force; the ruler is as thick as `thick` newtons. */
+  chains({ contacts, x, y, thick }) {
     if (!contacts.length) return;
     const { context, place } = this;
-    const mean = contacts.reduce((sum, { force }) => sum + force, 0) / contacts.length;
-    if (!(mean > 0)) return;
     context.strokeStyle = INK;
     context.lineCap = "round";
     for (const contact of contacts) {
+      if (!(contact.force > 0.02 * thick)) continue;
       const end = contact.second < 0 ? [contact.x, contact.y] : [x[contact.second], y[contact.second]];
-      context.lineWidth = Math.min(0.02, 0.004 * (contact.force / mean)) * place.width;
+      context.lineWidth = Math.min(0.02, 0.003 * (contact.force / thick)) * place.width;
       context.beginPath();
       context.moveTo(place.x(x[contact.first]), place.y(y[contact.first]));
       context.lineTo(place.x(end[0]), place.y(end[1]));

@@ -16,14 +16,16 @@ function slider({ name, label, shown = "", factor = 1, min, max, step }, app) {
     input.setAttribute("aria-label", label);
   }
   const refresh = () => {
-    const value = +now().toPrecision(6);
+    const value = +now().toPrecision(4);
     range.value = value;
     number.value = value;
   };
   const set = (given) => {
     const value = given === "" ? NaN : Number(given);
-    if (Number.isNaN(value)) app.say(`${label}: ${given || "nothing"} is no number.`);
-    else app.change(name, name === "disks" ? Math.round(value) : value / factor);
+    const wanted = `${label} = ${given || "nothing"}`;
+    if (Number.isNaN(value)) app.say(`${label}: give a number.`);
+    else if (name === "disks" && !Number.isInteger(value)) app.say(`${wanted} is not allowed: a whole number.`);
+    else if (!app.change(name, name === "disks" ? value : value / factor)) app.say(`${wanted}: ${app.message()}`);
     app.build();
   };
   range.addEventListener("input", () => (number.value = range.value));

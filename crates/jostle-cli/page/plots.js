@@ -43,7 +43,6 @@ export function plot(canvas, series, label) {
   context.fillStyle = "#fff";
   context.fillRect(0, 0, width, height);
   const size = 11 * ratio;
-  const box = { left: 4.6 * size, right: width - size, top: 1.9 * size, bottom: height - 2.4 * size };
   const last = series.time[series.time.length - 1] ?? 0;
   const end = Math.max(last, 1e-3);
   const values = series.lines.flat();
@@ -51,9 +50,13 @@ export function plot(canvas, series, label) {
   if (high - low < 1e-12) [low, high] = [low - 1e-3, high + 1e-3];
   const margin = 0.05 * (high - low);
   [low, high] = [low - margin, high + margin];
+  const [xTicks, yTicks] = [ticks(0, end, 5), ticks(low, high, 4)];
+  context.font = `${size}px sans-serif`;
+  const widest = Math.max(...yTicks.map((tick) => context.measureText(`${tick}`).width));
+  const box = { left: widest + 1.5 * size, right: width - 2 * size, top: 1.9 * size, bottom: height - 2.4 * size };
   const x = (t) => box.left + ((box.right - box.left) * t) / end;
   const y = (v) => box.bottom - ((box.bottom - box.top) * (v - low)) / (high - low);
-  axes(context, { box, x, y, size, xTicks: ticks(0, end, 5), yTicks: ticks(low, high, 4), label });
+  axes(context, { box, x, y, size, xTicks, yTicks, label });
   series.lines.forEach((line, k) => {
     context.beginPath();
     line.forEach((value, n) => context[n ? "lineTo" : "moveTo"](x(series.time[n]), y(value)));
@@ -83,7 +86,6 @@ function dark(share, k) {
 }
 
 function axes(context, { box, x, y, size, xTicks, yTicks, label }) {
-  context.font = `${size}px sans-serif`;
   context.lineWidth = 1;
   context.strokeStyle = "#ddd";
   context.fillStyle = "#333";

@@ -5,6 +5,9 @@ function text(value) {
   return Object.is(value, -0) ? "-0" : `${value}`;
 }
 
+/** Values that are kept at most: some 20 MB of text. */
+const MOST = 2e6;
+
 /** Runs a scene from its start to `end` [s] and returns { samples, parameters }, two CSV texts. `progress` gets a share in
  * [0, 1] and is awaited, so that the page stays alive; it returns false to stop, and the result is then null. */
 export async function recorded(module, { scene, disks, given }, end, sample, progress) {
@@ -13,8 +16,12 @@ export async function recorded(module, { scene, disks, given }, end, sample, pro
     const { variables } = simulation;
     const outputs = variables.filter(({ causality }) => causality === "output");
     const [first, last] = [outputs[0].position, outputs[outputs.length - 1].position + 1];
-    const rows = [["time", ...outputs.map(({ name }) => name)].join(",")];
     const count = Math.max(1, Math.ceil(end / sample - 1e-9));
+    if (!((count + 1) * (last - first + 1) <= MOST)) {
+      const fits = Math.floor(MOST / (last - first + 1));
+      throw new Error(`${end} s with a row every ${sample} s are ${count + 1} rows; the page saves at most ${fits}. Save fewer, or use jostle run.`);
+    }
+    const rows = [["time", ...outputs.map(({ name }) => name)].join(",")];
     for (let row = 0; row <= count; row++) {
       const time = Math.min(row * sample, end);
       simulation.advance(time);

@@ -81,6 +81,11 @@ export class Recording {
     if (missing.length) throw new Error(`${name} has no column ${missing.join(", ")}, which a picture of the disks needs.`);
     this.columns = new Map(header.map((column, k) => [column, Float64Array.from(rows, (row) => +row[k])]));
     this.time = this.columns.get("time");
+    const last = `disk.x[${this.disks}]`;
+    const count = header.filter((column) => column.startsWith("disk.x[")).length;
+    if (count !== this.disks || !header.includes(last)) {
+      throw new Error(`${name} has ${count} disks, its parameters have ${this.disks}: they are not of one run.`);
+    }
     if (!this.time.length) throw new Error(`${name} has no rows.`);
   }
 

@@ -1,5 +1,6 @@
 // Where frames come from: a simulation that runs in the page, or a recorded run. Both give the same.
 
+import { Refused } from "jostle/module";
 import { shapes } from "jostle/shapes";
 
 /** Numbers of all disks at one instant, and where base and walls are. */
@@ -10,9 +11,15 @@ function frame(value, { scene, x, y, angle, spin, speed, radius, base, time, con
   return { shapes: found, x, y, angle, spin, speed, radius, base, time, contacts, phase: turns };
 }
 
+/** More make the page stand still for seconds. */
+const MOST_DISKS = 2000;
+
 /** A scene that runs. */
 export class Live {
   constructor(module, { scene, disks, given }) {
+    if (disks > MOST_DISKS) {
+      throw new Refused(`number of disks = ${disks} is too much for this page: it takes at most ${MOST_DISKS}. jostle run takes more.`);
+    }
     this.simulation = module.open(scene, disks, given);
     this.scene = scene;
     this.radius = scene === "wedge" ? [this.value("disk.radius")] : this.simulation.array("disk.radius");
@@ -48,7 +55,13 @@ export class Live {
     const shown = { scene, x, y, angle, spin, speed, radius, base: simulation.value("base.position"), time: this.time, contacts };
     const made = frame((name) => this.value(name), { ...shown, view: this.view });
     this.view = made.shapes;
-    return made;
+    return { ...made, thick: this.thick };
+  }
+
+  /** Force [N] of a line as thick as the ruler: three times the weight of a disk of mean size. */
+  get thick() {
+    const size = this.radius.reduce((sum, radius) => sum + radius * radius, 0) / this.radius.length;
+    return 3 * Math.PI * size * (this.value("disk.surface_density") ?? 0) * (this.value("gravity") || 9.8);
   }
 
   close() {
@@ -98,6 +111,11 @@ export class Played {
     const made = frame((name) => this.value(name), { scene, x, y, angle, spin, speed, radius, base, time, contacts: null, view: this.view });
     this.view = made.shapes;
     return made;
+  }
+
+  /** To the first sample. */
+  rewind() {
+    this.time = this.recording.time[0];
   }
 
   close() {}

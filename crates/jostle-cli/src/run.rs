@@ -127,7 +127,10 @@ impl Run {
             let remedy = "Give scene, --engine, --drive and --disks of the run that was stopped.";
             Error::parameter("--resume", path.display(), allowed, remedy)
         };
-        let bytes = std::fs::read(path).map_err(|error| refused(error.to_string()))?;
+        let bytes = std::fs::read(path).map_err(|error| {
+            let allowed = format!("a file that can be read: {error}");
+            Error::parameter("--resume", path.display(), allowed, "Name the .state file of a run.")
+        })?;
         let restored = simulation.restore_bytes(&bytes);
         restored.map_err(|error| refused(error.to_string()))?;
         if !simulation.is_started() {

@@ -112,11 +112,45 @@ impl Run {
         let parameters = output_file::beside(path, "parameters.csv");
         let text = |path: &Path| std::fs::read_to_string(path).map_err(|error| cannot_read(path, &error));
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self {
+        let run = Self {
             samples: text(path)?,
             parameters: text(&parameters)?,
             name,
-        })
+        };
+        match run.defect() {
+            None => Ok(run),
+            Some(defect) => Err(Error::parameter(
+                "--replay",
+                path.display(),
+                format!("a run whose disks can be drawn, and {defect}"),
+                "Record it again with jostle run.",
+            )
+            .into()),
+        }
+    }
+
+    /// Why its disks cannot be drawn, if they cannot.
+    fn defect(&self) -> Option<String> {
+        let parameter = |name: &str| {
+            let mut lines = self.parameters.lines().map(|line| line.split(','));
+            lines.find_map(|mut fields| (fields.next() == Some(name)).then(|| fields.next().unwrap_or_default()))
+        };
+        let (Some(scene), Some(Ok(disks))) = (parameter("scene"), parameter("disks").map(str::parse::<u32>)) else {
+            return Some("its parameters name no scene and number of disks".into());
+        };
+        if !SHOWN.iter().any(|(shown, _)| *shown == scene) {
+            return Some(format!("the page does not know the scene {scene}"));
+        }
+        let mut lines = self.samples.lines();
+        let columns: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+        let last = ["disk.x", "disk.y", "disk.angle"].map(|name| format!("{name}[{disks}]"));
+        if let Some(missing) = last.iter().find(|name| !columns.contains(&name.as_str())) {
+            return Some(format!(
+                "it has no column {missing} for the {disks} disks of its parameters"
+            ));
+        }
+        let cells = lines.next().map_or(0, |row| row.split(',').count());
+        (cells != columns.len()).then(|| "it has no whole row".into())
     }
 }
 
@@ -162,6 +196,38 @@ mod tests {
         assert!(message(Some("rachet"), &[]).contains("Did you mean ratchet?"));
         assert!(message(Some("packing"), &["gravity=-1"]).contains("gravity = -1"));
         assert!(message(None, &["gravity=1"]).contains("need a scene"));
+    }
+
+    #[test]
+    fn a_run_that_cannot_be_drawn_is_refused_with_the_reason() {
+        let defect = |samples: &str, parameters: &str| {
+            let run = Run {
+                samples: samples.into(),
+                parameters: parameters.into(),
+                name: "run.csv".into(),
+            };
+            run.defect()
+        };
+        let (columns, made) = (
+            "time,disk.x[1],disk.y[1],disk.angle[1]",
+            "name,value,unit\nscene,wedge,\ndisks,1,\n",
+        );
+        assert_eq!(defect(&format!("{columns}\n0,1,2,3\n"), made), None);
+        for (samples, parameters, reason) in [
+            ("", made, "no column disk.x[1]"),
+            ("time,disk.x[1]", made, "no column disk.y[1]"),
+            (columns, made, "no whole row"),
+            ("time,disk.x[1],disk.y[1],disk.angle[1]\n0,1", made, "no whole row"),
+            (columns, "", "name no scene"),
+            (
+                columns,
+                "scene,three_disk,\ndisks,1,",
+                "does not know the scene three_disk",
+            ),
+        ] {
+            let found = defect(samples, parameters).unwrap_or_default();
+            assert!(found.contains(reason), "{found}, and not {reason}");
+        }
     }
 
     #[test]

@@ -5,6 +5,10 @@ use jostle::{Error, Result};
 use crate::shown::{SCENES, Shown};
 use crate::text;
 
+/// Work of one step, in units of `engine::WorkBudget`: about a second, in which the page does not answer. Its own steps take a
+/// thousandth of that.
+const MOST_WORK: u64 = 3_000_000;
+
 /// Simulations by number, and the buffers through which the page talks with them.
 #[derive(Default)]
 pub struct Module {
@@ -128,6 +132,7 @@ fn started(given: &str) -> Result<Box<dyn Shown>> {
         simulation.set(name, value)?;
     }
     simulation.start()?;
+    simulation.limit_work(MOST_WORK);
     Ok(simulation)
 }
 

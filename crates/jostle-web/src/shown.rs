@@ -17,6 +17,7 @@ pub trait Shown: Send {
     fn value(&self, position: usize) -> Result<Value>;
     fn list(&self, name: &str) -> Result<Listed>;
     fn warnings(&self) -> Vec<Warning>;
+    fn limit_work(&mut self, most: u64);
 }
 
 impl<M: Model> Shown for Simulation<M> {
@@ -48,6 +49,10 @@ impl<M: Model> Shown for Simulation<M> {
 
     fn warnings(&self) -> Vec<Warning> {
         self.warnings(&[])
+    }
+
+    fn limit_work(&mut self, most: u64) {
+        self.limit_work(most);
     }
 }
 

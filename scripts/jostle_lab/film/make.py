@@ -139,7 +139,8 @@ def write(script: Script, path: Path, progress: bool | None = None, quality: int
 def check(path: Path, colour: str, height: int | None, fps: float | None) -> None:
     """Refuse, before anything is computed, what no film can be made of."""
     if path.suffix.lower() not in ENDINGS:
-        raise LabError(f"{path} ends with {path.suffix!r}, which is not allowed: one of {', '.join(ENDINGS)}.")
+        found = f"ends with {path.suffix}" if path.suffix else "has no ending"
+        raise LabError(f"{path} {found}, allowed are {', '.join(ENDINGS)}.")
     encode.check_place(path)
     colours.check(colour)
     if height is not None:

@@ -38,7 +38,10 @@ def read(path: Path) -> "xr.Dataset":
     """
     ending = path.suffix.lower()
     if ending not in ENDINGS:
-        raise LabError(f"{path} ends with {ending!r}, which is not allowed: one of {', '.join(ENDINGS)}, or a scene.")
+        found = f"ends with {ending}" if ending else "has no ending"
+        raise LabError(f"{path} {found}, allowed are {', '.join(ENDINGS)}: a file of a run. The command takes scenes, too.")
+    if path.is_dir():
+        raise LabError(f"{path} is a folder. Name a file of a run.")
     if not path.is_file():
         raise LabError(f"{path} is not there. Name a file of a run, or a scene: {', '.join(SCENES)}.")
     try:
@@ -102,7 +105,11 @@ def dataset_of(frame: pl.DataFrame, parameters: Mapping[str, Any]) -> "xr.Datase
         values = np.array([_number(parameters[element]) for element in elements], dtype=np.float64)
         coordinates[name] = (name.partition(".")[0], values)
     kept = {name: _number(parameters[name]) for name in attributes}
-    built: xr.Dataset = _xarray().Dataset(data, coordinates, kept)
+    try:
+        built: xr.Dataset = _xarray().Dataset(data, coordinates, kept)
+    except ValueError as error:
+        remedy = "It is cut off, or not of one run with its parameters: record it again."
+        raise LabError(f"The columns of the table do not belong together: {error}. {remedy}") from None
     return built
 
 

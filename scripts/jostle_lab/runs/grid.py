@@ -155,6 +155,8 @@ def _axis(name: str, value: Any, where: str) -> tuple[float, ...]:
         count = value.get("count")
         if not isinstance(count, int) or count < 2:
             raise LabError(f"{where}: {name}.count = {count!r} must be a whole number, 2 or more.")
+        if count > MOST_RUNS:
+            raise LabError(f"{where}: {name}.count = {count}, allowed are {MOST_RUNS}. Take fewer values.")
         return tuple(low + (high - low) * i / (count - 1) for i in range(count))
     if not isinstance(value, Sequence) or isinstance(value, str):
         raise LabError(f"{where}: {name} = {value!r} is no axis. Give a list, or {{from = , to = , count = }}.")

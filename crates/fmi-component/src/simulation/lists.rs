@@ -17,7 +17,7 @@ impl<M: Model> Simulation<M> {
         let Some(Listing { info, read }) = listings.iter().find(|listing| listing.info.name == name) else {
             let known: Vec<_> = listings.iter().map(|listing| listing.info.name).collect();
             let remedy = match known.as_slice() {
-                [] => "It has none; another variant of the model may.".into(),
+                [] => "Take another variant of the model that has it, if there is one.".into(),
                 known => format!("It has {}.", known.join(", ")),
             };
             return Err(Error::call(

@@ -232,6 +232,7 @@ def test_peers_are_built_and_run():
         (PYTHON, "python", "pandas"),
         (PYTHON, "python", "error bars"),
         (PYTHON, "python", "loop"),
+        (PYTHON, "python", "installed"),
         (PYTHON, "python", "contacts"),
         (PYTHON, "python", "states"),
         (PYTHON, "python", "refusal"),

@@ -7,7 +7,7 @@
 
 use std::path::Path;
 
-use fmi_bundle::{Version, model_description};
+use fmi_bundle::{Icon, Version, model_description};
 use jostle::scene::catalogue::MODELS;
 
 #[path = "support/fmus.rs"]
@@ -122,7 +122,10 @@ fn xml_files_mention_nothing_that_is_not_there() {
         for (disks, arrays) in [(1, false), (1, true), (2, true), (3, false), (3, true)] {
             let mut component = fmus::component(model, disks);
             component.arrays = arrays;
-            component.icon = Some(b"PNG".to_vec());
+            component.icon = Some(Icon {
+                png: b"PNG".to_vec(),
+                svg: None,
+            });
             let mut fault = |what: String| {
                 faults.push(format!(
                     "{}, {disks} disks, arrays {arrays}: {what}",

@@ -8,8 +8,9 @@
 //! binaries/x86_64-linux/<identifier>.so     FMI 3.0
 //! documentation/index.html, documentation/licenses/
 //! extra/mechanics/reference.csv             what it computes, for `replay`
+//! extra/org.fmi-standard.fmi-ls-ref/        the same as an experiment, by the layered standard FMI-LS-REF
 //! model.png                                 FMI 2.0: icon
-//! terminalsAndIcons/                        FMI 3.0: terminals and icon
+//! terminalsAndIcons/                        terminals and icon
 //! ```
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
@@ -25,7 +26,7 @@ use crate::check::check_names;
 use crate::component::{Component, Notices};
 use crate::platform::platform;
 use crate::replay::{TOLERANCE, replay_archive};
-use crate::{documentation, model_description, reference, terminals};
+use crate::{documentation, model_description, reference, related_files, terminals};
 
 /// The library that exports the model `identifier`, in the first of `folders` that holds it.
 ///
@@ -177,17 +178,18 @@ fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(
         ),
     ];
     list.extend(licenses(&component.notices));
-    list.push((
-        reference::path(component.info()),
-        reference::record(component)?.into_bytes(),
-    ));
-    let icon = match version {
-        Version::Two => "model.png",
-        Version::Three => "terminalsAndIcons/icon.png",
-    };
-    list.extend(component.icon.iter().map(|picture| (icon.into(), picture.clone())));
-    let terminals = terminals::write(component).filter(|_| version == Version::Three);
-    list.extend(terminals.map(|text| ("terminalsAndIcons/terminalsAndIcons.xml".into(), text.into_bytes())));
+    let trajectory = reference::record(component)?;
+    let related = related_files::write(component, &trajectory)?;
+    list.push((reference::path(component.info()), trajectory.into_bytes()));
+    list.extend(related);
+    if let Some(icon) = &component.icon {
+        list.extend((version == Version::Two).then(|| ("model.png".into(), icon.png.clone())));
+        list.push(("terminalsAndIcons/icon.png".into(), icon.png.clone()));
+        let svg = icon.svg.iter().map(|text| text.clone().into_bytes());
+        list.extend(svg.map(|text| ("terminalsAndIcons/icon.svg".into(), text)));
+    }
+    let terminals = terminals::write(component).map(String::into_bytes);
+    list.extend(terminals.map(|text| ("terminalsAndIcons/terminalsAndIcons.xml".into(), text)));
     Ok(list)
 }
 

@@ -19,6 +19,15 @@ pub struct Notices {
     pub files: Vec<(String, String)>,
 }
 
+/// Picture of a component.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Icon {
+    /// A PNG file.
+    pub png: Vec<u8>,
+    /// The same as an SVG file, for importers that show it large.
+    pub svg: Option<String>,
+}
+
 /// A model with its structural parameters and what its FMU is to hold besides.
 #[derive(Debug, Clone)]
 pub struct Component {
@@ -32,8 +41,8 @@ pub struct Component {
     pub date: Option<String>,
     /// Licence and notices.
     pub notices: Notices,
-    /// Picture of the component as a PNG file.
-    pub icon: Option<Vec<u8>>,
+    /// Picture of the component.
+    pub icon: Option<Icon>,
     /// Command that compares the FMU with its reference trajectory, such as `mytool replay FILE.fmu`, for the documentation page.
     pub replay_command: Option<String>,
     /// Amplitude a of the oscillation a (1 - cos(omega t)) of an input with a derivative in the reference trajectory, from that

@@ -19,11 +19,12 @@ mod importer;
 pub mod model_description;
 mod platform;
 pub mod reference;
+mod related_files;
 mod replay;
 pub mod terminals;
 mod xml;
 
 pub use bundle::{cannot_write, find_library, pack, write};
-pub use component::{Component, Notices, nominal_amplitude};
+pub use component::{Component, Icon, Notices, nominal_amplitude};
 pub use fmi_component::Version;
 pub use replay::{ReplayReport, TOLERANCE, replay};

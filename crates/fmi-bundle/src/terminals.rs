@@ -1,4 +1,7 @@
-//! Component in, `terminalsAndIcons/terminalsAndIcons.xml` of FMI 3.0 out: which variables are coupled together, and the icon.
+//! Component in, `terminalsAndIcons/terminalsAndIcons.xml` out: which variables are coupled together, and the icon.
+//!
+//! One file for both versions of FMI: FMI 2.0.4 (section Terminals and Icons) takes the definition of FMI 3.0 as it is, and FMI 3.0 (2.4.9)
+//! asks for the version of this definition in `fmiVersion`, not for that of the model description, where an older FMU has the file.
 //!
 //! The members of a terminal are what the variables say of themselves ([`TerminalMember`](fmi_component::TerminalMember)), by
 //! the names that they have in this FMU: an array is a member where one of its elements is. A terminal without an input is left
@@ -101,6 +104,7 @@ mod tests {
     use fmi_component::{ModelInfo, ModelType, Row, Unit};
 
     use super::*;
+    use crate::component::Icon;
 
     fn input(name: &str) -> Row<()> {
         Row::input(name, Unit::ONE, 1.0, "")
@@ -191,7 +195,7 @@ mod tests {
     #[test]
     fn without_terminals_there_is_a_file_for_the_icon_alone() {
         let mut component = component();
-        component.icon = Some(vec![]);
+        component.icon = Some(Icon { png: vec![], svg: None });
         assert!(write(&component).unwrap().contains("<Icon "));
         let model = ModelType {
             variables: |_| vec![],
@@ -199,7 +203,7 @@ mod tests {
         };
         let mut plain = Component::new(&model, &[]).unwrap();
         assert_eq!(write(&plain), None);
-        plain.icon = Some(vec![]);
+        plain.icon = component.icon.clone();
         assert!(!write(&plain).unwrap().contains("Terminals>"));
     }
 }

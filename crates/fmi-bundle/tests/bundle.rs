@@ -57,7 +57,15 @@ fn an_fmu_holds_what_each_standard_asks_for() {
         );
         let mut archive = ZipArchive::new(Cursor::new(bytes)).unwrap();
         assert_eq!(text(&mut archive, binary), "library");
-        assert!(text(&mut archive, icon).ends_with("PNG"));
+        for icon in [icon, "terminalsAndIcons/icon.png"] {
+            assert!(text(&mut archive, icon).ends_with("PNG"));
+        }
+        assert_eq!(text(&mut archive, "terminalsAndIcons/icon.svg"), "<svg/>");
+        let terminals = text(&mut archive, "terminalsAndIcons/terminalsAndIcons.xml");
+        assert!(
+            terminals.contains(r#"<fmiTerminalsAndIcons fmiVersion="3.0">"#),
+            "{terminals}"
+        );
         let description = text(&mut archive, "modelDescription.xml");
         assert!(description.contains(r#"copyright="Copyright (c) 2026 A. &amp; B. Author" license="MIT""#));
         let page = text(&mut archive, "documentation/index.html");
@@ -74,7 +82,47 @@ fn an_fmu_holds_what_each_standard_asks_for() {
         assert_eq!(copied, "Permission is hereby granted");
         let reference = text(&mut archive, "extra/fmi-component/reference.csv");
         assert!(reference.starts_with("time,frame.position,frame.velocity,frame.reaction_force,"));
+        let of_standard = |name| format!("extra/org.fmi-standard.fmi-ls-ref/{name}");
+        let stimuli = text(&mut archive, &of_standard("stimuli.csv"));
+        assert!(
+            stimuli.starts_with("time,frame.position,frame.velocity\n0.0,"),
+            "{stimuli}"
+        );
+        let results = text(&mut archive, &of_standard("results.csv"));
+        assert!(results.starts_with("time,frame.reaction_force,"), "{results}");
+        assert_eq!(results.lines().count(), reference.lines().count());
+        let experiment = text(&mut archive, &of_standard("reference.exp"));
+        let last = results.lines().last().unwrap().split(',').next().unwrap();
+        assert!(
+            experiment.contains(&format!(r#"startTime="0.0" stopTime="{last}" stepSize="#)),
+            "{experiment}"
+        );
     }
+}
+
+/// Every file that the manifest of FMI-LS-REF names is in the archive, and the experiment finds its tables.
+#[test]
+fn related_files_are_there() {
+    let bytes = pack(&component(), Version::Three, b"library").unwrap();
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).unwrap();
+    let folder = Path::new("extra/org.fmi-standard.fmi-ls-ref");
+    let mut named = 0;
+    for file in ["fmi-ls-manifest.xml", "reference.exp"] {
+        let content = text(&mut archive, folder.join(file).to_str().unwrap());
+        for source in content.split("source=\"").skip(1) {
+            let source = source.split('"').next().unwrap();
+            let mut path = folder.to_path_buf();
+            for part in source.split('/') {
+                match part {
+                    ".." => assert!(path.pop()),
+                    name => path.push(name),
+                }
+            }
+            assert!(archive.by_name(path.to_str().unwrap()).is_ok(), "{source} of {file}");
+            named += 1;
+        }
+    }
+    assert_eq!(named, 6);
 }
 
 /// A model that panics is told of; the program that bundles it goes on.

@@ -70,7 +70,7 @@ impl Fmu {
         component.arrays = self.arrays;
         component.date = Some(date()?);
         component.notices = notices();
-        component.icon = Some(icon::png()?);
+        component.icon = Some(icon::of(component.info().name)?);
         component.replay_command = Some("jostle replay FILE.fmu".into());
         component.amplitude = reference_amplitude;
         let library = library(&component.info().identifier)?;

@@ -1,5 +1,6 @@
 //! `fmi-rs-importer FOLDER RESULT.csv STOP STEP`: validates the FMU that was unpacked to FOLDER, simulates it with its
-//! start values from 0 to STOP by steps of STEP (seconds), writes all its outputs. Problems go to standard error.
+//! start values from 0 to STOP by steps of STEP (seconds), writes all its outputs. Problems go to standard error. The model description
+//! is read by the schema of the crate fmi too.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -17,10 +18,22 @@ fn main() -> Outcome {
     };
     let (folder, result) = (Path::new(folder), Path::new(result));
     let times = (stop.parse()?, step.parse()?);
+    read_strictly(folder)?;
     match peek_fmi_major_version(&folder.join("modelDescription.xml"))? {
         FMIMajorVersion::V2 => two(folder, result, times),
         _ => three(folder, result, times),
     }
+}
+
+/// A reader that refuses elements and attributes that it does not know.
+fn read_strictly(folder: &Path) -> Outcome {
+    use fmi_schema::{deserialize, fmi2, fmi3};
+    let description = std::fs::read_to_string(folder.join("modelDescription.xml"))?;
+    match peek_fmi_major_version(&folder.join("modelDescription.xml"))? {
+        FMIMajorVersion::V2 => drop(deserialize::<fmi2::Fmi2ModelDescription>(&description)?),
+        _ => drop(deserialize::<fmi3::Fmi3ModelDescription>(&description)?),
+    }
+    Ok(())
 }
 
 fn refuse(problems: Vec<String>) -> Outcome {

@@ -61,9 +61,10 @@ def test_valid_and_equal_in_both_versions(tmp_path: Path, scene: str, engine: st
         subprocess.run([PROGRAM, "replay", "--exact", fmu], check=True)
         start_values_are_those_of_the_instance(fmu, tmp_path / "unpacked")
         reset_equals_a_new_instance(fmu, tmp_path / "unpacked")
+        terminals_fit_the_schema(fmu, scene, drive)
+        icon_is_there_twice(fmu)
         outputs = ["disk.angle[1]", "base.reaction_force", "energy.kinetic", "energy.lost"]
         results.append(simulate_fmu(str(fmu), stop_time=0.05, output_interval=1 / 2048, output=outputs))
-    terminals_fit_the_schema(fmu, scene, drive)
     two, three = results
     assert len(two) > 90
     for name in two.dtype.names:
@@ -125,6 +126,60 @@ def terminals_fit_the_schema(fmu: Path, scene: str, drive: str) -> None:
     flange = {"torque", "torque.rate", "disk.angle[1]", "disk.angular_velocity[1]"} if scene == "three_disk" else base
     assert (flange <= members) == (drive == "input")
     assert drive == "input" or not members
+
+
+def icon_is_there_twice(fmu: Path) -> None:
+    """As PNG and, square as that is, as SVG."""
+    with zipfile.ZipFile(fmu) as archive:
+        assert archive.read("terminalsAndIcons/icon.png").startswith(b"\x89PNG")
+        svg = etree.fromstring(archive.read("terminalsAndIcons/icon.svg"))
+    assert svg.tag == "{http://www.w3.org/2000/svg}svg"
+    assert svg.get("viewBox") == "0 0 128 128"
+    assert len(svg.findall("{*}circle")) > 0
+
+
+LAYERED = "extra/org.fmi-standard.fmi-ls-ref"
+MANIFEST = "{http://fmi-standard.org/fmi-ls-manifest}"
+
+
+@pytest.mark.parametrize("version", ["2", "3"])
+@pytest.mark.parametrize(("scene", "drive"), [("packing", "input"), ("wedge", "sine"), ("three_disk", "input")])
+def test_experiment_of_the_layered_standard(tmp_path: Path, scene: str, drive: str, version: str) -> None:
+    """fmpy runs what `extra/org.fmi-standard.fmi-ls-ref` describes, from that alone, and gets the results that are beside it."""
+    fmu = tmp_path / "it.fmu"
+    subprocess.run([PROGRAM, "fmu", scene, "--drive", drive, "--fmi", version, "--out", fmu], check=True)
+    folder = Path(fmpy.extract(str(fmu), str(tmp_path / "unpacked"))) / LAYERED
+    manifest = etree.parse(folder / "fmi-ls-manifest.xml").getroot()
+    assert manifest.tag == "fmiReferences"
+    assert manifest.get(f"{MANIFEST}fmi-ls-name") == "org.fmi-standard.fmi-ls-ref"
+    related = {element.get("role"): folder / str(element.get("source")) for element in manifest.findall("Related")}
+    assert all(path.is_file() for path in related.values())
+    (experiment,) = etree.parse(related["experiment/smoke-test"]).getroot().findall("Experiment")
+    times = {name: float(value) for name, value in experiment[0].items()}
+    results = table(folder / experiment.find("References").get("source"))
+    stimuli = experiment.find("Stimuli")
+    assert (stimuli is not None) == (drive == "input")
+    seen = simulate_fmu(
+        str(fmu),
+        start_time=times["startTime"],
+        stop_time=times["stopTime"],
+        step_size=times["stepSize"],
+        output_interval=times["stepSize"],
+        input=None if stimuli is None else table(folder / stimuli.get("source")),
+        output=results.dtype.names[1:],
+    )
+    assert len(seen) == len(results) > 15
+    for name in results.dtype.names:
+        scale = np.abs(results[name]).max() + 1e-12
+        assert np.abs(seen[name] - results[name]).max() < 1e-6 * scale, name
+
+
+def table(path: Path) -> np.ndarray:
+    """A CSV file with a row of names, as fmpy takes it."""
+    with path.open(encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    types = np.dtype([(name, np.float64) for name in rows[0]])
+    return np.array([tuple(map(float, row)) for row in rows[1:]], dtype=types)
 
 
 def test_the_same_bytes_under_a_given_date(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::io;
 
-use fmi_component::{Kind, Unit, Variable, Version};
+use fmi_component::{Causality, Kind, Quantity, Unit, Variable, Version};
 
 use crate::xml::{self, Attributes, Xml, number};
 
@@ -45,25 +45,103 @@ pub fn units(xml: &mut Xml, variables: &[Variable]) -> io::Result<()> {
     })
 }
 
-/// Name of the declared type of quantities in this unit: that of the physical quantity, and for others than
+/// Name of the declared type of FMI 2.0 for quantities in this unit: that of the physical quantity, and for others than
 /// [`Unit::MECHANICS`] the unit too, since a quantity may come in several.
-pub fn declared_type(unit: Unit) -> Option<String> {
+fn declared_type(unit: Unit) -> Option<String> {
     let quantity = unit.quantity?;
-    let shown = unit.display.map_or(unit.name, |(name, _)| name);
     Some(match Unit::MECHANICS.contains(&unit) {
         true => quantity.into(),
-        false => format!("{quantity} in {shown}"),
+        false => format!("{quantity} in {}", shown(unit)),
     })
 }
 
-/// A type for each physical quantity and unit in use, and the enumerations in use.
+fn shown(unit: Unit) -> &'static str {
+    unit.display.map_or(unit.name, |(name, _)| name)
+}
+
+/// What a real variable of FMI 3.0 shares with others of its declared type.
+#[derive(Clone, Copy, PartialEq)]
+pub struct RealType {
+    unit: Unit,
+    /// 1 is the value of the standard where none is written.
+    nominal: f64,
+}
+
+impl RealType {
+    /// Of the time.
+    pub const TIME: Self = Self {
+        unit: Unit::SECOND,
+        nominal: 1.0,
+    };
+
+    /// Of a variable. A parameter needs no nominal value: it does not change, and its start value says how large it is.
+    pub fn of(causality: Causality, quantity: &Quantity) -> Self {
+        let nominal = match causality {
+            Causality::Parameter => 1.0,
+            Causality::CalculatedParameter | Causality::Input | Causality::Output => quantity.nominal,
+        };
+        Self {
+            unit: quantity.unit,
+            nominal,
+        }
+    }
+
+    /// Name of the type, which each variable of it refers to.
+    pub fn name(self) -> String {
+        let unit = match self.unit {
+            unit if unit.name == Unit::ONE.name && unit.quantity.is_none() => "Number".into(),
+            unit => declared_type(unit).unwrap_or_else(|| format!("Quantity in {}", shown(unit))),
+        };
+        match self.nominal {
+            1.0 => unit,
+            nominal => format!("{unit}, nominal {}", number(nominal)),
+        }
+    }
+
+    fn attributes(self) -> Attributes {
+        let mut list = vec![("name", self.name())];
+        list.extend(of_unit(self.unit));
+        list.extend((self.nominal != 1.0).then(|| ("nominal", number(self.nominal))));
+        list
+    }
+}
+
+/// The types in use, in the order of their units and then of their nominal values.
+fn real_types(variables: &[Variable]) -> Vec<RealType> {
+    let of_all = variables.iter().filter_map(|variable| match &variable.kind {
+        Kind::Real(quantity) => Some(RealType::of(variable.causality, quantity)),
+        _ => None,
+    });
+    let of_all: Vec<RealType> = [RealType::TIME].into_iter().chain(of_all).collect();
+    let of_unit = |unit: Unit| {
+        let mut nominals: Vec<f64> = of_all
+            .iter()
+            .filter(|each| each.unit == unit)
+            .map(|each| each.nominal)
+            .collect();
+        // The plain type first.
+        nominals.sort_by(|one, other| (*one != 1.0).cmp(&(*other != 1.0)).then(one.total_cmp(other)));
+        nominals.dedup();
+        nominals.into_iter().map(move |nominal| RealType { unit, nominal })
+    };
+    used_units(variables).into_iter().flat_map(of_unit).collect()
+}
+
+/// A type for each physical quantity and unit in use, in FMI 3.0 for each nominal value too, and the enumerations in use.
 pub fn type_definitions(xml: &mut Xml, variables: &[Variable], version: Version) -> io::Result<()> {
-    for unit in used_units(variables) {
-        if let Some(name) = declared_type(unit) {
-            let about = vec![("name", name)];
-            match version {
-                Version::Two => xml::element(xml, "SimpleType", &about, |xml| xml::empty(xml, "Real", &of_unit(unit)))?,
-                Version::Three => xml::empty(xml, "Float64Type", &[about, of_unit(unit)].concat())?,
+    match version {
+        Version::Two => {
+            for unit in used_units(variables) {
+                if let Some(name) = declared_type(unit) {
+                    xml::element(xml, "SimpleType", &vec![("name", name)], |xml| {
+                        xml::empty(xml, "Real", &of_unit(unit))
+                    })?;
+                }
+            }
+        }
+        Version::Three => {
+            for each in real_types(variables) {
+                xml::empty(xml, "Float64Type", &each.attributes())?;
             }
         }
     }
@@ -85,8 +163,21 @@ pub fn type_definitions(xml: &mut Xml, variables: &[Variable], version: Version)
     })
 }
 
-/// Attributes that say what a unit measures; a variable repeats those of its type for importers that do not read that.
-pub fn of_unit(unit: Unit) -> Attributes {
+/// Attributes of a real variable that say what it measures. FMI 3.0 has them in the declared type alone: the standard takes them from
+/// there, and readers such as the crate `fmi` refuse them beside it. In FMI 2.0, which they read, the variable repeats
+/// them for importers that do not look at types.
+pub fn typed(of: RealType, version: Version) -> Attributes {
+    match version {
+        Version::Two => {
+            let declared = declared_type(of.unit).map(|name| ("declaredType", name));
+            declared.into_iter().chain(of_unit(of.unit)).collect()
+        }
+        Version::Three => vec![("declaredType", of.name())],
+    }
+}
+
+/// Attributes that say what a unit measures.
+fn of_unit(unit: Unit) -> Attributes {
     let mut list = Attributes::new();
     list.extend(unit.quantity.map(|name| ("quantity", name.into())));
     list.push(("unit", unit.name.into()));
@@ -124,8 +215,9 @@ mod tests {
             volt,
             Unit::new("u", [0; 8]),
         ];
-        let row = |unit| Row::<()>::input("x", unit, 1.0, "").variable;
-        let variables = units_used.map(row);
+        let row = |unit, nominal| Row::<()>::input("x", unit, nominal, "").variable;
+        let mut variables = units_used.map(|unit| row(unit, 1.0)).to_vec();
+        variables.extend([row(Unit::METRE, 0.001), row(Unit::ONE, 1.0), row(Unit::METRE, 0.001)]);
         let text = xml::document(|xml| {
             units(xml, &variables)?;
             type_definitions(xml, &variables, Version::Three)
@@ -135,12 +227,15 @@ mod tests {
             .skip(1)
             .map(|rest| rest.split('"').next().unwrap())
             .collect();
-        let expected = ["m", "mm", "s", "N", "V", "u"].into_iter().chain([
+        let expected = ["1", "m", "mm", "s", "N", "V", "u"].into_iter().chain([
+            "Number",
             "Length",
+            "Length, nominal 0.001",
             "Time",
             "Force",
             "ElectricPotential in V",
             "Length in mm",
+            "Quantity in u",
         ]);
         assert_eq!(names, expected.collect::<Vec<_>>(), "{text}");
         assert!(text.contains(r#"<BaseUnit kg="1" m="2" s="-3" A="-1"/>"#), "{text}");

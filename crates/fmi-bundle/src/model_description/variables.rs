@@ -2,9 +2,9 @@
 
 use std::io;
 
-use fmi_component::{Causality, Kind, TIME, TIME_REFERENCE, Unit, Variable, Version, value_reference};
+use fmi_component::{Causality, Kind, TIME, TIME_REFERENCE, Variable, Version, value_reference};
 
-use super::types::{declared_type, of_unit};
+use super::types::{RealType, typed};
 use super::{Layout, index};
 use crate::xml::{self, Attributes, Xml, number};
 
@@ -17,7 +17,7 @@ pub fn write(xml: &mut Xml, layout: &Layout<'_>) -> io::Result<()> {
         ("causality", "independent".into()),
         ("variability", "continuous".into()),
     ];
-    let unit = typed(Unit::SECOND);
+    let unit = typed(RealType::TIME, layout.version);
     element(xml, layout.version, about_time, ("Real", "Float64"), unit, None)?;
     layout
         .positions()
@@ -96,11 +96,6 @@ fn of_each(first: &str) -> String {
     format!("{}each {}{}", &before[..noun], &before[noun..], &first[end..])
 }
 
-fn typed(unit: Unit) -> Attributes {
-    let declared = declared_type(unit).map(|name| ("declaredType", name));
-    declared.into_iter().chain(of_unit(unit)).collect()
-}
-
 fn causality(causality: Causality) -> &'static str {
     match causality {
         Causality::Parameter => "parameter",
@@ -132,14 +127,16 @@ fn details(variable: &Variable, version: Version) -> Attributes {
     let settable = variable.causality.is_settable();
     match &variable.kind {
         Kind::Real(quantity) => {
-            list.extend(typed(quantity.unit));
+            list.extend(typed(RealType::of(variable.causality, quantity), version));
             let ends = [("min", quantity.min), ("max", quantity.max)];
             list.extend(
                 ends.into_iter()
                     .filter(|(_, end)| end.is_finite())
                     .map(|(name, end)| (name, number(end))),
             );
-            list.push(("nominal", number(quantity.nominal)));
+            if version == Version::Two {
+                list.push(("nominal", number(quantity.nominal)));
+            }
             list.extend(settable.then(|| ("start", number(quantity.start))));
         }
         Kind::Integer { range, start } | Kind::Long { range, start } => {

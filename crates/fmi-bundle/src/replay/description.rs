@@ -29,6 +29,8 @@ pub struct Description {
     /// Model identifier.
     pub identifier: String,
     variables: HashMap<String, Described>,
+    /// Nominal values of the declared types that state one.
+    types: HashMap<String, f64>,
 }
 
 #[derive(Default)]
@@ -36,6 +38,7 @@ struct Described {
     reference: u32,
     span: Option<usize>,
     nominal: Option<f64>,
+    declared_type: Option<String>,
     input: bool,
 }
 
@@ -48,6 +51,7 @@ impl Description {
             token: String::new(),
             identifier: String::new(),
             variables: HashMap::new(),
+            types: HashMap::new(),
         };
         let mut last = None;
         loop {
@@ -78,6 +82,10 @@ impl Description {
                 }
             }
             "CoSimulation" => self.identifier = get("modelIdentifier").cloned().unwrap_or_default(),
+            "Float64Type" => {
+                let stated = get("name").cloned().zip(number("nominal"));
+                self.types.extend(stated);
+            }
             "Dimension" => {
                 if let Some(entry) = last.as_ref().and_then(|name| self.variables.get_mut(name)) {
                     entry.span = number("start").map(|span| span as usize);
@@ -89,6 +97,7 @@ impl Description {
                         reference: reference as u32,
                         span: None,
                         nominal: number("nominal"),
+                        declared_type: get("declaredType").cloned(),
                         input: get("causality").is_some_and(|causality| causality == "input"),
                     };
                     self.variables.insert(name.clone(), entry);
@@ -115,11 +124,12 @@ impl Description {
             }
         };
         let span = entry.span.unwrap_or(1);
+        let of_type = || self.types.get(entry.declared_type.as_ref()?).copied();
         (offset < span).then_some(Column {
             reference: entry.reference,
             offset,
             span,
-            nominal: entry.nominal.unwrap_or(1.0),
+            nominal: entry.nominal.or_else(of_type).unwrap_or(1.0),
             input: entry.input,
         })
     }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use fmi_bundle::{Component, Notices, find_library};
+use fmi_bundle::{Component, Icon, Notices, find_library};
 use fmi_component::ModelType;
 use oscillators::Oscillators;
 
@@ -15,7 +15,10 @@ pub fn component() -> Component {
         copyright: "Copyright (c) 2026 A. & B. Author".into(),
         files: vec![("LICENSE-MIT.txt".into(), "Permission is hereby granted".into())],
     };
-    component.icon = Some(b"\x89PNG".into());
+    component.icon = Some(Icon {
+        png: b"\x89PNG".into(),
+        svg: Some("<svg/>".into()),
+    });
     component.replay_command = Some("mytool replay FILE.fmu".into());
     component
 }

@@ -7,6 +7,7 @@ COMMANDS = (
     "tools.base_on_inputs:base_on_inputs",
     "tools.instruction_counts:instruction_counts",
     "tools.import_circles:import_circles",
+    "tools.importers.command:importers",
     "tools.peers:peers",
     "tools.release.command:binaries",
     "tools.release.command:verify",

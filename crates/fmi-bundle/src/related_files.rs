@@ -1,5 +1,5 @@
 //! Reference trajectory in, the files of the layered standard FMI-LS-REF out: a manifest that says what an FMU holds besides, and
-//! the trajectory as an experiment that any tool can run, with the inputs in one table and the results in another.
+//! the trajectory as an experiment that any tool can run: the inputs in a table of their own, the results in the trajectory itself.
 //!
 //! The manifest follows FMI-LS-REF 1.0.0-alpha.1 and is for both versions of FMI. The experiment follows the schema of
 //! MA-HS-Experiments, a draft without a version, whose text still has the times on the element `Experiment`.
@@ -17,7 +17,6 @@ const FOLDER: &str = "extra/org.fmi-standard.fmi-ls-ref";
 const NAMESPACE: &str = "http://fmi-standard.org/fmi-ls-manifest";
 const EXPERIMENT: &str = "reference.exp";
 const STIMULI: &str = "stimuli.csv";
-const RESULTS: &str = "results.csv";
 
 /// The files, each with its path in the FMU; `trajectory` is what [`reference::record`] gave. None where the model does not make a
 /// single step from its start values, since there is then no experiment.
@@ -36,45 +35,45 @@ pub fn write(component: &Component, trajectory: &str) -> Result<Vec<(String, Vec
     let (Some(first), Some(last)) = (rows.first(), rows.last().filter(|_| rows.len() > 1)) else {
         return Ok(Vec::new());
     };
-    let chosen = |causality| columns(component.table(), &header, causality);
-    let part = |columns: &[usize]| -> Result<Vec<u8>> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        for row in [&header].into_iter().chain(&rows) {
-            let cells = columns.iter().map(|column| row.get(*column).unwrap_or_default());
-            writer.write_record(cells).map_err(|error| failed(&error))?;
-        }
-        writer.into_inner().map_err(|error| failed(&error.into_error()))
-    };
-    let inputs = chosen(Causality::Input);
+    let inputs = columns_of_inputs(component.table(), &header);
     // The time alone stimulates nothing.
     let stimulated = inputs.len() > 1;
     let times = [first, last, &rows[1]].map(|row| row.get(0).unwrap_or_default());
+    let results = reference::path(component.info()).replacen("extra", "..", 1);
     let mut files = vec![
-        ("fmi-ls-manifest.xml", manifest(component).into_bytes()),
-        (EXPERIMENT, experiment(component, times, stimulated).into_bytes()),
-        (RESULTS, part(&chosen(Causality::Output))?),
+        ("fmi-ls-manifest.xml", manifest(&results).into_bytes()),
+        (
+            EXPERIMENT,
+            experiment(component, times, stimulated, &results).into_bytes(),
+        ),
     ];
     if stimulated {
-        files.push((STIMULI, part(&inputs)?));
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for row in [&header].into_iter().chain(&rows) {
+            let cells = inputs.iter().map(|column| row.get(*column).unwrap_or_default());
+            writer.write_record(cells).map_err(|error| failed(&error))?;
+        }
+        let table = writer.into_inner().map_err(|error| failed(&error.into_error()))?;
+        files.push((STIMULI, table));
     }
     let in_folder = |(name, content)| (format!("{FOLDER}/{name}"), content);
     Ok(files.into_iter().map(in_folder).collect())
 }
 
-/// Columns of the time and of the variables of this causality.
-fn columns(table: &Table, header: &csv::StringRecord, causality: Causality) -> Vec<usize> {
-    let wanted = |name: &str| {
+/// Columns of the time and of the inputs.
+fn columns_of_inputs(table: &Table, header: &csv::StringRecord) -> Vec<usize> {
+    let is_input = |name: &str| {
         let position = table.position(name);
-        position.is_some_and(|position| table.variables()[position].causality == causality)
+        position.is_some_and(|position| table.variables()[position].causality == Causality::Input)
     };
     let names = header.iter().enumerate();
     names
-        .filter(|(column, name)| *column == 0 || wanted(name))
+        .filter(|(column, name)| *column == 0 || is_input(name))
         .map(|(column, _)| column)
         .collect()
 }
 
-fn manifest(component: &Component) -> String {
+fn manifest(results: &str) -> String {
     let root = vec![
         ("xmlns:fmi-ls", NAMESPACE.into()),
         ("fmi-ls:fmi-ls-name", "org.fmi-standard.fmi-ls-ref".into()),
@@ -84,7 +83,6 @@ fn manifest(component: &Component) -> String {
             "Layered Standard providing information on related files included in an FMU.".into(),
         ),
     ];
-    let trajectory = reference::path(component.info()).replacen("extra", "..", 1);
     let related = [
         (
             "application/x-ma-hs-experiments",
@@ -92,12 +90,11 @@ fn manifest(component: &Component) -> String {
             "experiment/smoke-test",
             "A short run from the start values",
         ),
-        ("text/csv", RESULTS, "result", "Outputs of the run in reference.exp"),
         (
             "text/csv",
-            trajectory.as_str(),
+            results,
             "result",
-            "Inputs and outputs of the same run in one table",
+            "Inputs and outputs of the run in reference.exp",
         ),
         (
             "text/html",
@@ -121,7 +118,7 @@ fn manifest(component: &Component) -> String {
     })
 }
 
-fn experiment(component: &Component, [start, stop, second]: [&str; 3], stimulated: bool) -> String {
+fn experiment(component: &Component, [start, stop, second]: [&str; 3], stimulated: bool, results: &str) -> String {
     let name = component.info().name;
     let root = vec![
         ("name", format!("{name}: smoke test")),
@@ -150,7 +147,7 @@ fn experiment(component: &Component, [start, stop, second]: [&str; 3], stimulate
                 if stimulated {
                     table(xml, "Stimuli", STIMULI)?;
                 }
-                table(xml, "References", RESULTS)
+                table(xml, "References", results)
             })
         })
     })

@@ -23,7 +23,13 @@ version = "3" if b'fmiVersion="3.0"' in text else "2"
 schema = Path(fmpy.__file__).parent / f"schema/fmi{version}/fmi{version}ModelDescription.xsd"
 path = f"{programs}{os.pathsep}{os.environ['PATH']}"
 command = [str(programs / "xsdata"), "generate", str(schema), "--package", f"strict{version}"]
-subprocess.run(command, cwd=folder, check=True, stdout=sys.stderr, env={**os.environ, "PATH": path})
+# The files of FMI 2.0's schema include each other in a circle.
+command += ["--structure-style", "single-package"]
+made = subprocess.run(
+    command, cwd=folder, capture_output=True, text=True, check=False, env={**os.environ, "PATH": path}
+)
+if made.returncode != 0:
+    sys.exit((made.stdout + made.stderr).strip())
 sys.path.insert(0, str(folder))
 root = importlib.import_module(f"strict{version}").FmiModelDescription
 strict = ParserConfig(fail_on_unknown_properties=True, fail_on_unknown_attributes=True, fail_on_converter_warnings=True)

@@ -19,12 +19,15 @@ ports = {
     "output": [[fmu.name, name, name] for name in case["outputs"]],
 }
 about = {"name": made.name, "fmu": [fmu.name], "step_size": case["step"], **ports}
-flags = ("auto_input", "auto_output", "auto_link", "auto_local", "auto_parameter", "mt", "profile", "sequential")
+flags = ("auto_input", "auto_output", "auto_link", "auto_local", "auto_parameter", "mt", "sequential")
 description = made.with_suffix(".json")
 description.write_text(json.dumps({**about, **dict.fromkeys(flags, False)}), encoding="utf-8")
 version = read_model_description(str(fmu)).fmiVersion[0]
 program = [str(Path(sys.executable).with_name("fmucontainer")), "-container", str(description)]
-subprocess.run([*program, "-fmu-directory", str(fmu.parent), "-fmi", version], check=True, stdout=sys.stderr)
+program += ["-fmu-directory", str(fmu.parent), "-fmi", version]
+wrapped = subprocess.run(program, capture_output=True, text=True, check=False)
+if wrapped.returncode != 0:
+    sys.exit((wrapped.stdout + wrapped.stderr).strip())
 if not made.exists():
     (fmu.parent / made.name).replace(made)
 model = read_model_description(str(made))

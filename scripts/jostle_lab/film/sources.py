@@ -39,7 +39,8 @@ def read(path: Path) -> "xr.Dataset":
     ending = path.suffix.lower()
     if ending not in ENDINGS:
         found = f"ends with {ending}" if ending else "has no ending"
-        raise LabError(f"{path} {found}, allowed are {', '.join(ENDINGS)}: a file of a run. The command takes scenes, too.")
+        allowed = f"allowed are {', '.join(ENDINGS)}: a file of a run"
+        raise LabError(f"{path} {found}, {allowed}. The command takes scenes, too.")
     if path.is_dir():
         raise LabError(f"{path} is a folder. Name a file of a run.")
     if not path.is_file():

@@ -173,7 +173,7 @@ fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(
         ),
         (
             "documentation/index.html".into(),
-            documentation::write(component, version, binary).into_bytes(),
+            documentation::write(component, version, binary)?.into_bytes(),
         ),
     ];
     list.extend(licenses(&component.notices));

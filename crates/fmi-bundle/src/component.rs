@@ -19,6 +19,21 @@ pub struct Notices {
     pub files: Vec<(String, String)>,
 }
 
+/// Where a model comes from, for the documentation page. Whatever is empty is left out.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Origin {
+    /// Who made it.
+    pub authors: String,
+    /// Address of its sources.
+    pub repository: String,
+    /// Where questions go: an address, or one that begins with `mailto:`.
+    pub contact: String,
+    /// Programs that it was built with, and their versions.
+    pub tools: String,
+    /// What is new in this version: HTML.
+    pub changes: String,
+}
+
 /// A model with its structural parameters and what its FMU is to hold besides.
 #[derive(Debug, Clone)]
 pub struct Component {
@@ -32,6 +47,8 @@ pub struct Component {
     pub date: Option<String>,
     /// Licence and notices.
     pub notices: Notices,
+    /// Where it comes from.
+    pub origin: Origin,
     /// Picture of the component as a PNG file.
     pub icon: Option<Vec<u8>>,
     /// Command that compares the FMU with its reference trajectory, such as `mytool replay FILE.fmu`, for the documentation page.
@@ -62,6 +79,7 @@ impl Component {
             arrays: false,
             date: None,
             notices: Notices::default(),
+            origin: Origin::default(),
             icon: None,
             replay_command: None,
             amplitude: nominal_amplitude,

@@ -24,6 +24,6 @@ pub mod terminals;
 mod xml;
 
 pub use bundle::{cannot_write, find_library, pack, write};
-pub use component::{Component, Notices, nominal_amplitude};
+pub use component::{Component, Notices, Origin, nominal_amplitude};
 pub use fmi_component::Version;
 pub use replay::{ReplayReport, TOLERANCE, replay};

@@ -78,7 +78,7 @@ fn a_sheet_names_variables_of_its_scene_and_each_name_is_there_in_some_variant()
             .iter()
             .map(|symbol| symbol.variable)
             .filter(|variable| !variable.is_empty());
-        for wanted in sheet.outputs.iter().copied().chain(symbols) {
+        for wanted in sheet.outputs.iter().chain(&sheet.parameters).copied().chain(symbols) {
             let scene = components().filter(|(other, _)| other.info().name == component.info().name);
             assert!(
                 scene.into_iter().any(|(other, _)| known(wanted, &other)),

@@ -8,8 +8,16 @@ use fmi_component::Symbol;
 pub const INPUT: &str = "input";
 
 /// Senses of x, y and angles, at the lower right of a picture.
-pub const AXES: &str = "<path class=\"axis\" d=\"M284 232h26\"/><path class=\"axis\" d=\"M284 232v-26\"/>\
-    <path class=\"axis\" d=\"M299 219a8 8 0 1 0-4 7\"/><text x=\"312\" y=\"229\" class=\"end\">x</text><text x=\"276\" y=\"212\">y</text>";
+pub const AXES: &str = "<path class=\"axis\" d=\"M280 232h30\"/><path class=\"axis\" d=\"M280 232v-30\"/>\
+    <path class=\"axis\" d=\"M300 231A20 20 0 0 0 282 212\"/><text x=\"312\" y=\"228\">x</text><text x=\"270\" y=\"206\">y</text>";
+
+/// Parameters of a drive that is inside, for the diagram.
+pub const PARAMETERS_OF_DRIVE: &[&str] = &[
+    "drive.amplitude",
+    "drive.frequency",
+    "bottom.radius",
+    "bottom.angular_frequency",
+];
 
 /// How the base moves: the label at the arrow of the base, at the lower left.
 pub fn base_label(drive: &str) -> &'static str {
@@ -38,18 +46,17 @@ pub const LIMITS_OF_WORK: &[&str] = &[
 /// Symbols of a base on a sine and of gravity.
 pub const SYMBOLS_OF_BASE: &[Symbol] = &[
     symbol("<i>g</i>", "gravity", "gravity, downwards"),
-    symbol("<i>A</i>", "drive.amplitude", "amplitude of the base"),
+    symbol(
+        "<i>A</i>",
+        "drive.amplitude",
+        "amplitude of the base; &Gamma; = <i>A</i> &omega;<sub>b</sub><sup>2</sup> / <i>g</i> is its peak acceleration over gravity",
+    ),
     symbol(
         "<i>f</i>",
         "drive.frequency",
         "frequency of the base, &omega;<sub>b</sub> = 2 &pi; <i>f</i>",
     ),
     symbol("<i>&phi;</i>", "drive.phase", "phase of the base at time zero"),
-    symbol(
-        "&Gamma;",
-        "drive.amplitude",
-        "peak acceleration of the base over gravity, <i>A</i> &omega;<sub>b</sub><sup>2</sup> / <i>g</i>, a pure number",
-    ),
 ];
 
 /// Symbols of soft contacts.

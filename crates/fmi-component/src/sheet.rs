@@ -41,6 +41,8 @@ pub struct DataSheet {
     /// Outputs that most users connect, in the order in which the diagram shows them; `disk.angle` stands for `disk.angle[1]` and so
     /// on. Those that the model does not have are left out. Without any the diagram shows the first.
     pub outputs: Vec<&'static str>,
+    /// Parameters that most users set, which the diagram shows with their start values: of models that have no inputs above all.
+    pub parameters: Vec<&'static str>,
     /// Symbols of the equations.
     pub symbols: Vec<Symbol>,
     /// The run that the page shows. Without one it shows the reference trajectory.
@@ -55,6 +57,7 @@ impl DataSheet {
         without_inputs: "",
         picture: Vec::new(),
         outputs: Vec::new(),
+        parameters: Vec::new(),
         symbols: Vec::new(),
         example: None,
     };

@@ -65,8 +65,20 @@ const OUTPUTS: &[&str] = &[
     "sliding_regime",
 ];
 
+const PARAMETERS: &[&str] = &[
+    "torque.amplitude",
+    "torque.angular_frequency",
+    "support.amplitude",
+    "support.angular_frequency",
+    "drive.amplitude",
+    "drive.frequency",
+    "tilt",
+    "contact.friction",
+];
+
 const SYMBOLS: &[Symbol] = &[
-    symbol("<i>R</i>, <i>m</i>", "disk.radius", "radius and mass of the disk"),
+    symbol("<i>R</i>", "disk.radius", "radius of the disk"),
+    symbol("<i>m</i>", "disk.mass", "mass of the disk"),
     symbol("<i>g</i>", "gravity", "gravity, downwards"),
     symbol(
         "&theta;<sub>0</sub>",
@@ -136,6 +148,7 @@ pub fn of(drive: &str) -> DataSheet {
         },
         picture: vec![PICTURE, if turned_by_torque { TORQUE } else { SUPPORTS }, AXES],
         outputs: OUTPUTS.to_vec(),
+        parameters: PARAMETERS.to_vec(),
         symbols: [SYMBOLS, SYMBOLS_OF_CONTACTS].concat(),
         example: Some(example(drive)),
     }

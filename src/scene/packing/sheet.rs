@@ -3,7 +3,8 @@
 use fmi_component::{DataSheet, ExampleRun, Symbol};
 
 use crate::scene::sheet::{
-    AXES, INPUT, LIMITS_OF_INPUTS, LIMITS_OF_WORK, SYMBOLS_OF_BASE, SYMBOLS_OF_CONTACTS, base_label, symbol,
+    AXES, INPUT, LIMITS_OF_INPUTS, LIMITS_OF_WORK, PARAMETERS_OF_DRIVE, SYMBOLS_OF_BASE, SYMBOLS_OF_CONTACTS,
+    base_label, symbol,
 };
 
 const PURPOSE: &str = "A granular load: disks in a box that a shaker, a machine or your model moves up and down. It returns the force of the \
@@ -88,11 +89,8 @@ const OUTPUTS: &[&str] = &[
 ];
 
 const SYMBOLS: &[Symbol] = &[
-    symbol(
-        "<i>R</i>, &theta;",
-        "disk.angle[1]",
-        "radius of a disk; its angle, counter-clockwise",
-    ),
+    symbol("<i>R</i>", "disk.radius[1]", "radius of a disk"),
+    symbol("&theta;", "disk.angle[1]", "angle of a disk, counter-clockwise"),
     symbol(
         "&omega;, &sigma;, <i>n</i>",
         "",
@@ -138,6 +136,7 @@ pub fn of(engine: &str, drive: &str) -> DataSheet {
         },
         picture: vec![DISKS, BOX, base_label(drive), AXES],
         outputs: OUTPUTS.to_vec(),
+        parameters: PARAMETERS_OF_DRIVE.to_vec(),
         symbols: [SYMBOLS_OF_CONTACTS, SYMBOLS_OF_BASE, SYMBOLS].concat(),
         example: Some(example(drive)),
     }

@@ -2,7 +2,9 @@
 
 use fmi_component::{DataSheet, ExampleRun, Symbol};
 
-use crate::scene::sheet::{AXES, INPUT, LIMITS_OF_INPUTS, LIMITS_OF_WORK, SYMBOLS_OF_BASE, base_label, symbol};
+use crate::scene::sheet::{
+    AXES, INPUT, LIMITS_OF_INPUTS, LIMITS_OF_WORK, PARAMETERS_OF_DRIVE, SYMBOLS_OF_BASE, base_label, symbol,
+};
 
 const PURPOSE: &str = "A conveyor of grains without a motor along it: disks on an asymmetric sawtooth that vibrates up and down flow \
     sideways. It returns how fast and which way they flow, which changes with frequency, amplitude, shape of the teeth and number of \
@@ -49,6 +51,8 @@ const OUTPUTS: &[&str] = &[
     "disk.angle",
 ];
 
+const TEETH: &[&str] = &["tooth.width", "tooth.height", "tooth.asymmetry"];
+
 const SYMBOLS: &[Symbol] = &[
     symbol("<i>w</i>", "tooth.width", "width of a tooth"),
     symbol("<i>h</i>", "tooth.height", "height of the sharp apex above the valley"),
@@ -91,6 +95,7 @@ pub fn of(drive: &str) -> DataSheet {
         },
         picture: vec![PICTURE, base_label(drive), AXES],
         outputs: OUTPUTS.to_vec(),
+        parameters: [PARAMETERS_OF_DRIVE, TEETH].concat(),
         symbols: [SYMBOLS, SYMBOLS_OF_BASE].concat(),
         example: Some(example(input)),
     }

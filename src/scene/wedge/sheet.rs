@@ -3,7 +3,8 @@
 use fmi_component::{DataSheet, ExampleRun, Symbol};
 
 use crate::scene::sheet::{
-    AXES, INPUT, LIMITS_OF_INPUTS, LIMITS_OF_WORK, SYMBOLS_OF_BASE, SYMBOLS_OF_CONTACTS, base_label, symbol,
+    AXES, INPUT, LIMITS_OF_INPUTS, LIMITS_OF_WORK, PARAMETERS_OF_DRIVE, SYMBOLS_OF_BASE, SYMBOLS_OF_CONTACTS,
+    base_label, symbol,
 };
 
 const PURPOSE: &str = "The smallest granular motor: one disk that bounces in a tilted, vibrated wedge and turns steadily. It returns the mean \
@@ -61,6 +62,8 @@ const OUTPUTS: &[&str] = &[
     "disk.y",
 ];
 
+const WEDGE: &[&str] = &["wedge.aperture", "wedge.tilt"];
+
 const SYMBOLS: &[Symbol] = &[
     symbol("&theta;<sub>W</sub>", "wedge.aperture", "angle between the walls"),
     symbol(
@@ -79,8 +82,8 @@ const SYMBOLS: &[Symbol] = &[
     ),
     symbol(
         "&lang;&omega;&rang;",
-        "mean_angular_velocity",
-        "mean of the angular velocity over time",
+        "",
+        "mean of the angular velocity over the time since <code>measure.start</code>",
     ),
 ];
 
@@ -106,8 +109,17 @@ pub fn of(engine: &str, drive: &str) -> DataSheet {
         } else {
             ""
         },
-        picture: vec![PICTURE, base_label(drive), AXES],
+        picture: vec![
+            PICTURE,
+            if map {
+                "<text class=\"in\" x=\"6\" y=\"234\">base of random phase</text>"
+            } else {
+                base_label(drive)
+            },
+            AXES,
+        ],
         outputs: OUTPUTS.to_vec(),
+        parameters: [PARAMETERS_OF_DRIVE, WEDGE].concat(),
         symbols: [SYMBOLS, SYMBOLS_OF_CONTACTS, SYMBOLS_OF_BASE].concat(),
         example: Some(example(map, input)),
     }

@@ -88,13 +88,18 @@ pub fn write(component: &Component) -> String {
         named
     };
     let rest = all.len() - shown.len();
-    let left = match inputs.as_slice() {
-        [] => "<li><div><b>No inputs</b><small>what drives the model is inside; set its parameters before the start</small>\
-               </div></li>"
-            .into(),
-        inputs => inputs.iter().map(|group| line(group, "#0b5fb0", true)).collect::<String>(),
-    };
-    let mut right: String = shown.iter().map(|group| line(group, "#a8321e", false)).collect();
+    let parameters = groups(component, Causality::Parameter);
+    let set = (info.sheet.parameters.iter()).filter_map(|name| parameters.iter().find(|group| group.stem() == *name));
+    let set: String = set.map(|group| line(group, Side::Parameter)).collect();
+    let mut left: String = inputs.iter().map(|group| line(group, Side::Input)).collect();
+    if inputs.is_empty() {
+        left.push_str("<li><div><b>No inputs</b><small>what drives the model is inside</small></div></li>");
+    }
+    if !set.is_empty() {
+        left.push_str("<li><div><small>Parameters, set before the start:</small></div></li>");
+        left.push_str(&set);
+    }
+    let mut right: String = shown.iter().map(|group| line(group, Side::Output)).collect();
     if rest > 0 {
         right.push_str(&format!(
             "<li><div><small>and {rest} more in the <a href=\"#outputs\">table of outputs</a></small></div></li>"
@@ -115,31 +120,55 @@ pub fn write(component: &Component) -> String {
     )
 }
 
-/// A variable with its arrow, which is behind the name of an input and before that of an output.
-fn line(group: &Group, colour: &str, input: bool) -> String {
+/// Where a variable stands.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Input,
+    Parameter,
+    Output,
+}
+
+/// A variable with its arrow, which is behind the name of what goes in and before that of what comes out.
+fn line(group: &Group, side: Side) -> String {
     let unit = match group.unit() {
         "" | "1" => String::new(),
         unit => format!(" [{}]", escape(unit)),
     };
+    let start = match side {
+        Side::Parameter => format!(" = {}", group.variable.start()),
+        _ => String::new(),
+    };
     let text = format!(
-        "<div><code>{}</code>{unit}<small>{}</small></div>",
-        escape(group.name.as_str()),
+        "<div><code>{}</code>{start}{unit}<small>{}</small></div>",
+        breakable(&group.name),
         escape(first_clause(&group.description()))
     );
+    let (colour, dashes) = match side {
+        Side::Input => ("#0b5fb0", ""),
+        Side::Parameter => ("#777", " stroke-dasharray=\"5 3\""),
+        Side::Output => ("#a8321e", ""),
+    };
     let arrow = format!(
         "<svg class=\"arrow\" viewBox=\"0 0 40 14\" aria-hidden=\"true\"><path d=\"M1 7H30\" stroke=\"{colour}\" \
-         stroke-width=\"2.5\" fill=\"none\"/><path d=\"M28 1 39 7 28 13z\" fill=\"{colour}\"/></svg>"
+         stroke-width=\"2.5\"{dashes} fill=\"none\"/><path d=\"M28 1 39 7 28 13z\" fill=\"{colour}\"/></svg>"
     );
-    match input {
-        true => format!("<li>{text}{arrow}</li>"),
-        false => format!("<li>{arrow}{text}</li>"),
+    match side {
+        Side::Output => format!("<li>{arrow}{text}</li>"),
+        Side::Input | Side::Parameter => format!("<li>{text}{arrow}</li>"),
     }
 }
 
-/// Description up to the first mark that ends a clause.
+/// A name that may be broken behind its points and underscores.
+fn breakable(name: &str) -> String {
+    escape(name).replace('.', ".<wbr/>").replace('_', "_<wbr/>")
+}
+
+/// Description up to the first mark that ends a clause; a point inside of a name does not.
 fn first_clause(description: &str) -> &str {
-    let end = description.find([':', ';', '.']).unwrap_or(description.len());
-    &description[..end]
+    let mut marks = description.match_indices([':', ';', '.']);
+    let ends = |place: &usize| description[place + 1..].chars().next().is_none_or(char::is_whitespace);
+    let end = marks.find_map(|(place, _)| Some(place).filter(ends));
+    &description[..end.unwrap_or(description.len())]
 }
 
 #[cfg(test)]
@@ -149,6 +178,11 @@ mod tests {
     #[test]
     fn a_description_is_cut_where_its_first_clause_ends() {
         assert_eq!(first_clause("Force now, up; its mean is another"), "Force now, up");
+        assert_eq!(
+            first_clause("Mean since measure.start: all of it."),
+            "Mean since measure.start"
+        );
+        assert_eq!(first_clause("Mass."), "Mass");
         assert_eq!(first_clause("Mass"), "Mass");
     }
 }

@@ -26,11 +26,11 @@ pub fn variables(component: &Component) -> String {
         let columns = [
             ("Name", true),
             ("Unit", true),
+            ("Start", settable),
+            ("Description", true),
             ("Range", settable),
             ("Recommended", recommends),
-            ("Start", settable),
             ("Value reference", true),
-            ("Description", true),
         ];
         let head: String = columns
             .iter()
@@ -56,7 +56,12 @@ fn row(component: &Component, group: &Group, settable: bool, recommends: bool) -
         escape(group.unit())
     );
     if settable {
-        cells.push_str(&format!("<td>{}</td>", range(variable)));
+        cells.push_str(&format!("<td class=\"number\">{}</td>", short(variable.start())));
+    }
+    let description = group.description();
+    cells.push_str(&format!("<td class=\"text\">{}</td>", escape(description.as_str())));
+    if settable {
+        cells.push_str(&format!("<td class=\"range\">{}</td>", range(variable)));
     }
     if recommends {
         let recommended = variable.recommended.as_ref();
@@ -65,9 +70,6 @@ fn row(component: &Component, group: &Group, settable: bool, recommends: bool) -
             format!("{}<br/><small>{}</small>", escape(range.as_str()), escape(reason))
         });
         cells.push_str(&format!("<td class=\"text\">{}</td>", text.unwrap_or_default()));
-    }
-    if settable {
-        cells.push_str(&format!("<td class=\"number\">{}</td>", variable.start()));
     }
     // The elements of an array that is bundled as one have the reference of the first.
     let last = match component.arrays {
@@ -78,20 +80,25 @@ fn row(component: &Component, group: &Group, settable: bool, recommends: bool) -
         true => value_reference(group.first).to_string(),
         false => format!("{} to {}", value_reference(group.first), value_reference(last)),
     };
-    let description = group.description();
-    format!(
-        "<tr>{cells}<td class=\"number\">{references}</td><td class=\"text\">{}</td></tr>\n",
-        escape(description.as_str())
-    )
+    format!("<tr>{cells}<td class=\"number\">{references}</td></tr>\n")
+}
+
+/// Seven digits, for the eye: the exact value is in the model description.
+fn short(value: Value) -> Value {
+    match value {
+        Value::Real(real) => Value::Real(format!("{real:.6e}").parse().unwrap_or(real)),
+        whole => whole,
+    }
 }
 
 /// What is allowed.
 fn range(variable: &Variable) -> String {
+    let real = |end: f64| short(Value::Real(end));
     match &variable.kind {
         Kind::Real(quantity) => match (quantity.min.is_finite(), quantity.max.is_finite()) {
-            (true, true) => format!("{} to {}", Value::Real(quantity.min), Value::Real(quantity.max)),
-            (true, false) => format!("from {}", Value::Real(quantity.min)),
-            (false, true) => format!("to {}", Value::Real(quantity.max)),
+            (true, true) => format!("{} to {}", real(quantity.min), real(quantity.max)),
+            (true, false) => format!("from {}", real(quantity.min)),
+            (false, true) => format!("to {}", real(quantity.max)),
             (false, false) => "any".into(),
         },
         Kind::Integer { range, .. } | Kind::Long { range, .. } => format!("{} to {}", range.start(), range.end()),

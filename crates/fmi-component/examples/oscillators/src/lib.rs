@@ -76,6 +76,7 @@ impl Model for Oscillators {
                 without_inputs: "The frame stands still.",
                 picture: vec!["<circle class=\"body\" cx=\"160\" cy=\"120\" r=\"40\"/>"],
                 outputs: vec!["frame.reaction_force", "body.position"],
+                parameters: vec!["spring.stiffness"],
                 symbols: vec![Symbol {
                     symbol: "<i>k</i>",
                     variable: "spring.stiffness",

@@ -20,21 +20,18 @@ fn page(component: &Component, version: Version) -> String {
     text
 }
 
-/// Reads the page as XML, which it is too, but for named entities; gives its text.
-fn text_of(page: &str) -> String {
-    let (mut reader, mut text, mut depth) = (Reader::from_str(page), String::new(), 0);
-    reader.config_mut().check_end_names = true;
+/// Reads the page as XML, which it is too, but for named entities.
+fn check_well_formed(page: &str) {
+    let (mut reader, mut depth) = (Reader::from_str(page), 0);
     loop {
         match reader.read_event().unwrap() {
             Event::Start(_) => depth += 1,
             Event::End(_) => depth -= 1,
-            Event::Text(piece) => text.push_str(&String::from_utf8_lossy(&piece)),
             Event::Eof => break,
             _ => {}
         }
     }
     assert_eq!(depth, 0, "an element is not closed");
-    text
 }
 
 /// A model without a data sheet.
@@ -54,7 +51,7 @@ fn pages_are_well_formed_and_need_nothing_but_themselves() {
     for component in [component(), plain()] {
         for version in [Version::Two, Version::Three] {
             let page = page(&component, version);
-            text_of(&page);
+            check_well_formed(&page);
             for source in [" src=", "<link", "<script", "@import", "url(http"] {
                 assert!(!page.contains(source), "{source}");
             }

@@ -166,6 +166,8 @@ pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Ve
 
 /// All files but the binary, each with its path.
 fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(String, Vec<u8>)>> {
+    // First: a model that panics is told of by what every FMU has.
+    let reference = reference::record(component)?;
     let mut list = vec![
         (
             "modelDescription.xml".into(),
@@ -177,10 +179,7 @@ fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(
         ),
     ];
     list.extend(licenses(&component.notices));
-    list.push((
-        reference::path(component.info()),
-        reference::record(component)?.into_bytes(),
-    ));
+    list.push((reference::path(component.info()), reference.into_bytes()));
     let icon = match version {
         Version::Two => "model.png",
         Version::Three => "terminalsAndIcons/icon.png",

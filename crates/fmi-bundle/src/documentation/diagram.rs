@@ -160,7 +160,9 @@ fn line(group: &Group, side: Side) -> String {
 
 /// A name that may be broken behind its points and underscores.
 fn breakable(name: &str) -> String {
-    escape(name).replace('.', ".<wbr/>").replace('_', "_<wbr/>")
+    let (stem, numbers) = name.split_at(name.find('[').unwrap_or(name.len()));
+    let stem = escape(stem).replace('.', ".<wbr/>").replace('_', "_<wbr/>");
+    format!("{stem}{}", escape(numbers))
 }
 
 /// Description up to the first mark that ends a clause; a point inside of a name does not.

@@ -12,12 +12,7 @@ pub const AXES: &str = "<path class=\"axis\" d=\"M280 232h30\"/><path class=\"ax
     <path class=\"axis\" d=\"M300 231A20 20 0 0 0 282 212\"/><text x=\"312\" y=\"228\">x</text><text x=\"270\" y=\"206\">y</text>";
 
 /// Parameters of a drive that is inside, for the diagram.
-pub const PARAMETERS_OF_DRIVE: &[&str] = &[
-    "drive.amplitude",
-    "drive.frequency",
-    "bottom.radius",
-    "bottom.angular_frequency",
-];
+pub const PARAMETERS_OF_DRIVE: &[&str] = &["drive.amplitude", "drive.frequency"];
 
 /// How the base moves: the label at the arrow of the base, at the lower left.
 pub fn base_label(drive: &str) -> &'static str {

@@ -88,6 +88,8 @@ const OUTPUTS: &[&str] = &[
     "disk.y",
 ];
 
+const BOTTOM: &[&str] = &["bottom.radius", "bottom.angular_frequency"];
+
 const SYMBOLS: &[Symbol] = &[
     symbol("<i>R</i>", "disk.radius[1]", "radius of a disk"),
     symbol("&theta;", "disk.angle[1]", "angle of a disk, counter-clockwise"),
@@ -136,7 +138,7 @@ pub fn of(engine: &str, drive: &str) -> DataSheet {
         },
         picture: vec![DISKS, BOX, base_label(drive), AXES],
         outputs: OUTPUTS.to_vec(),
-        parameters: PARAMETERS_OF_DRIVE.to_vec(),
+        parameters: [PARAMETERS_OF_DRIVE, BOTTOM].concat(),
         symbols: [SYMBOLS_OF_CONTACTS, SYMBOLS_OF_BASE, SYMBOLS].concat(),
         example: Some(example(drive)),
     }

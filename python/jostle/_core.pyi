@@ -3,7 +3,7 @@ from typing import Any, final
 
 VERSION: str
 
-Row = tuple[str, str, str, str, float, float, float, list[str], str]
+Row = tuple[str, str, str, str, float, float, float, list[str], str, str, str]
 
 def scenes() -> list[tuple[str, str, str, str, int, int]]: ...
 

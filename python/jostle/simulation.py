@@ -102,7 +102,11 @@ class Simulation:
 
     @property
     def variables(self) -> "pd.DataFrame":
-        """Table of the variables: one row a name; causality, kind, unit, range, start, size, options, description."""
+        """Table of the variables: one row a name.
+
+        Columns: causality, kind, unit, minimum, maximum, recommended (range in which the model makes sense, as a text),
+        reason (what is wrong outside of it), start, size, options, description.
+        """
         import pandas as pd  # noqa: PLC0415 - takes longer than all else, and loops do without
 
         rows = {
@@ -112,6 +116,8 @@ class Simulation:
                 "unit": v.unit,
                 "minimum": v.minimum,
                 "maximum": v.maximum,
+                "recommended": v.recommended,
+                "reason": v.reason,
                 "start": v.start,
                 "size": len(v.positions),
                 "options": ", ".join(v.options),

@@ -31,6 +31,9 @@ class Variable:
         start: value if none is given; NaN if the scene computes it.
         options: names of the options.
         description: one sentence.
+        recommended: range in which the model makes sense, or which quantity has which; empty for none. Outside of it
+            the simulation warns.
+        reason: what is wrong outside of it.
         positions: of its elements in the table of the scene.
         elements: their names; empty for a single variable.
 
@@ -45,6 +48,8 @@ class Variable:
     start: float
     options: tuple[str, ...]
     description: str
+    recommended: str
+    reason: str
     positions: tuple[int, ...]
     elements: tuple[str, ...]
 
@@ -68,11 +73,12 @@ def grouped(rows: "Iterable[Row]") -> dict[str, Variable]:
 
 def _variable(base: str, members: "list[tuple[int, Row]]") -> Variable:
     """What is known of all from the first of them."""
-    name, causality, kind, unit, low, high, start, options, told = members[0][1]
+    name, causality, kind, unit, low, high, start, options, told, recommended, reason = members[0][1]
     elements = tuple(row[0] for _, row in members) if name != base else ()
     positions = tuple(position for position, _ in members)
     text = re.sub(r"\bof disk 1\b", "of each disk", told)
-    return Variable(base, causality, kind, unit, low, high, start, tuple(options), text, positions, elements)
+    about = (tuple(options), text, recommended, reason)
+    return Variable(base, causality, kind, unit, low, high, start, *about, positions, elements)
 
 
 def find(variables: dict[str, Variable], name: str, scene: str) -> tuple[Variable, int | None]:

@@ -1,7 +1,7 @@
 //! What there is, as plain tuples: scenes, and the variables of a scene.
 
 use jostle::scene::catalogue::{MODELS, Names};
-use jostle::scene::{Kind, Value, Variable};
+use jostle::scene::{Kind, Recommended, Value, Variable};
 use pyo3::prelude::*;
 
 /// Scene, engine, drive, description and allowed numbers of disks of everything that can be simulated.
@@ -21,7 +21,7 @@ pub fn scenes() -> Vec<(&'static str, &'static str, &'static str, String, u32, u
     MODELS.iter().map(|model| row((model.info)())).collect()
 }
 
-/// Name, causality, kind, unit, smallest, largest and start value, options, description.
+/// Name, causality, kind, unit, smallest, largest and start value, options, description, recommended range and its reason.
 pub type Row = (
     String,
     &'static str,
@@ -32,6 +32,8 @@ pub type Row = (
     f64,
     Vec<&'static str>,
     String,
+    String,
+    &'static str,
 );
 
 /// A variable as a tuple.
@@ -51,6 +53,7 @@ pub fn row(variable: &Variable) -> Row {
     } else {
         f64::NAN
     };
+    let recommended = variable.recommended.as_ref();
     (
         variable.name.clone(),
         variable.causality.word(),
@@ -61,6 +64,8 @@ pub fn row(variable: &Variable) -> Row {
         start,
         options,
         variable.description.clone(),
+        recommended.map_or_else(String::new, Recommended::text),
+        recommended.map_or("", |recommended| recommended.reason),
     )
 }
 

@@ -8,6 +8,7 @@ mod observables;
 mod outputs;
 mod parameters;
 mod rest;
+mod sheet;
 
 use serde::{Deserialize, Serialize};
 
@@ -237,12 +238,13 @@ impl<E: DiskOnTwoSupportsDrive> Model for DiskOnTwoSupportsScene<E> {
             default_disks: 1,
             stop_time: 10.0,
             step_size: 1e-2,
+            sheet: sheet::of(E::NAME),
         }
         .into()
     }
 
     fn variables(_structure: &StructuralParameters) -> Vec<Row<Self>> {
-        let mut rows = parameters::rows();
+        let mut rows = parameters::rows(E::TILT);
         rows.extend(E::rows());
         rows.extend(Self::computed_rows());
         complete(rows)

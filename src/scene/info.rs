@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use fmi_component::{ModelInfo, StructuralParameter, StructuralParameters};
+use fmi_component::{DataSheet, ModelInfo, StructuralParameter, StructuralParameters};
 
 /// Name of the structural parameter of every scene.
 const DISKS: &str = "disks";
@@ -36,6 +36,8 @@ pub struct SceneInfo {
     pub stop_time: f64,
     /// Default experiment: communication step \[s\].
     pub step_size: f64,
+    /// What the documentation page says besides.
+    pub sheet: DataSheet,
 }
 
 impl From<SceneInfo> for ModelInfo {
@@ -60,6 +62,7 @@ impl From<SceneInfo> for ModelInfo {
             }],
             stop_time: info.stop_time,
             step_size: info.step_size,
+            sheet: info.sheet,
         }
     }
 }

@@ -31,15 +31,17 @@ mod random_phase_base;
 pub mod ratchet;
 #[cfg(feature = "toml")]
 mod recipe;
+mod recommended;
+mod sheet;
 pub mod soft_disks;
 pub mod wedge;
 mod work_limit;
 
 pub use any_simulation::{AnySimulation, Selection};
 pub use fmi_component::{
-    Causality, Column, DynSaved, DynSimulation, Error, Kind, ListInfo, Listed, Listing, Model, ModelInfo, ModelType,
-    Quantity, Reached, Read, Result, Row, Saved, Simulation, StructuralParameters, TIME, Table, Unit, Value, Values,
-    Variable, Warning,
+    Causality, Column, DataSheet, Derived, DynSaved, DynSimulation, Error, ExampleRun, Kind, ListInfo, Listed, Listing,
+    Model, ModelInfo, ModelType, Quantity, Reached, Read, Recommended, Result, Row, Saved, Simulation,
+    StructuralParameters, Symbol, TIME, Table, Unit, Value, Values, Variable, Warning,
 };
 pub use info::SceneInfo;
 #[cfg(feature = "toml")]

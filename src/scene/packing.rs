@@ -12,6 +12,7 @@ mod initial_packing;
 mod rotation;
 mod rows;
 mod settled;
+mod sheet;
 pub mod soft;
 mod soft_packing;
 

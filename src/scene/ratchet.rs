@@ -6,6 +6,7 @@ mod fields;
 mod outputs;
 mod parameters;
 mod refusals;
+mod sheet;
 mod start;
 
 use serde::{Deserialize, Serialize};
@@ -196,7 +197,8 @@ where
             disks: 1..=100_000,
             default_disks: 20,
             stop_time: 10.0,
-            step_size: 1e-2,
+            step_size: if D::STEERED { 1e-3 } else { 1e-2 },
+            sheet: sheet::of(D::NAME),
         }
         .into()
     }

@@ -7,6 +7,7 @@ mod engine;
 mod equations;
 mod rigid;
 mod rows;
+mod sheet;
 mod soft;
 
 use serde::{Deserialize, Serialize};
@@ -259,8 +260,9 @@ impl<E: WedgeEngine> Model for Wedge<E> {
             equations: equations::HTML,
             disks: 1..=1,
             default_disks: 1,
-            stop_time: 100.0,
-            step_size: 1e-2,
+            stop_time: if E::INPUT_PARTS > 0 { 10.0 } else { 100.0 },
+            step_size: if E::INPUT_PARTS > 0 { 1e-3 } else { 1e-2 },
+            sheet: sheet::of(E::NAME, E::DRIVE),
         }
         .into()
     }

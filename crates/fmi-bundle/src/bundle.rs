@@ -167,6 +167,8 @@ pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Ve
 
 /// All files but the binary, each with its path.
 fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(String, Vec<u8>)>> {
+    // First: a model that panics is told of by what every FMU has.
+    let reference = reference::record(component)?;
     let mut list = vec![
         (
             "modelDescription.xml".into(),
@@ -174,13 +176,12 @@ fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(
         ),
         (
             "documentation/index.html".into(),
-            documentation::write(component, version, binary).into_bytes(),
+            documentation::write(component, version, binary)?.into_bytes(),
         ),
     ];
     list.extend(licenses(&component.notices));
-    let trajectory = reference::record(component)?;
-    let related = related_files::write(component, &trajectory)?;
-    list.push((reference::path(component.info()), trajectory.into_bytes()));
+    let related = related_files::write(component, &reference)?;
+    list.push((reference::path(component.info()), reference.into_bytes()));
     list.extend(related);
     if let Some(icon) = &component.icon {
         list.extend((version == Version::Two).then(|| ("model.png".into(), icon.png.clone())));

@@ -28,6 +28,21 @@ pub struct Icon {
     pub svg: Option<String>,
 }
 
+/// Where a model comes from, for the documentation page. Whatever is empty is left out.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Origin {
+    /// Who made it.
+    pub authors: String,
+    /// Address of its sources.
+    pub repository: String,
+    /// Where questions go: an address, or one that begins with `mailto:`.
+    pub contact: String,
+    /// Programs that it was built with, and their versions.
+    pub tools: String,
+    /// What is new in this version: HTML.
+    pub changes: String,
+}
+
 /// A model with its structural parameters and what its FMU is to hold besides.
 #[derive(Debug, Clone)]
 pub struct Component {
@@ -41,6 +56,8 @@ pub struct Component {
     pub date: Option<String>,
     /// Licence and notices.
     pub notices: Notices,
+    /// Where it comes from.
+    pub origin: Origin,
     /// Picture of the component.
     pub icon: Option<Icon>,
     /// Command that compares the FMU with its reference trajectory, such as `mytool replay FILE.fmu`, for the documentation page.
@@ -71,6 +88,7 @@ impl Component {
             arrays: false,
             date: None,
             notices: Notices::default(),
+            origin: Origin::default(),
             icon: None,
             replay_command: None,
             amplitude: nominal_amplitude,

@@ -25,6 +25,6 @@ pub mod terminals;
 mod xml;
 
 pub use bundle::{cannot_write, find_library, pack, write};
-pub use component::{Component, Icon, Notices, nominal_amplitude};
+pub use component::{Component, Icon, Notices, Origin, nominal_amplitude};
 pub use fmi_component::Version;
 pub use replay::{ReplayReport, TOLERANCE, replay};

@@ -14,6 +14,7 @@ use fmi_component::{Causality, Kind, LOG_CATEGORIES, TOLERANCE, Variable, Versio
 
 use crate::component::Component;
 use crate::xml::{self, Attributes, number};
+pub(crate) use variables::of_each;
 
 /// The model description of a component.
 pub fn write(component: &Component, version: Version) -> String {

@@ -1,7 +1,7 @@
 //! Reference trajectory: what a model computes from its start values, as a table inside its FMU.
 //!
 //! CSV: `time`, the inputs as they are set at that time, the outputs as they are then; numbers read back as the same
-//! bits. An input with a derivative oscillates, so that something happens: see [`Component::amplitude`]. The table is short,
+//! bits. An input with a derivative oscillates with its rates, so that something happens: see [`Component::amplitude`]. The table is short,
 //! so that what a processor's or a C library's rounding changes has not grown much by its end, although a model may amplify
 //! it: see [`replay`](crate::replay()). It ends early where the model refuses a step, and is empty where it refuses its start
 //! values.
@@ -51,9 +51,7 @@ fn run(component: &Component) -> Result<String> {
         .chain(inputs.iter().map(name))
         .chain(outputs.iter().map(name));
     writer.write_record(header).map_err(failed)?;
-    let steps = (VALUES / (1 + inputs.len() + outputs.len())).clamp(*STEPS.start(), *STEPS.end());
-    let step = component.info().step_size.min(LONGEST_STEP);
-    let omega = TAU / (PERIOD * step);
+    let (steps, step, omega) = (steps(component), step(component), omega(component));
     let mut simulation = (component.model().prepare)(component.structure().clone());
     let mut advanced = simulation.start(0.0);
     for _ in 0..=steps {
@@ -61,7 +59,7 @@ fn run(component: &Component) -> Result<String> {
             break;
         }
         let time = simulation.time();
-        set_inputs(component, &mut *simulation, &inputs, omega)?;
+        set_inputs(component, &mut *simulation, omega)?;
         let values = inputs
             .iter()
             .chain(&outputs)
@@ -75,7 +73,29 @@ fn run(component: &Component) -> Result<String> {
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-fn of(table: &Table, causality: Causality) -> Vec<usize> {
+/// Number of communication steps.
+pub(crate) fn steps(component: &Component) -> usize {
+    let table = component.table();
+    let columns = 1 + of(table, Causality::Input).len() + of(table, Causality::Output).len();
+    (VALUES / columns).clamp(*STEPS.start(), *STEPS.end())
+}
+
+/// Communication step \[s\].
+fn step(component: &Component) -> f64 {
+    component.info().step_size.min(LONGEST_STEP)
+}
+
+/// Duration \[s\].
+pub(crate) fn duration(component: &Component) -> f64 {
+    steps(component) as f64 * step(component)
+}
+
+/// Angular frequency of the inputs \[rad/s\].
+pub(crate) fn omega(component: &Component) -> f64 {
+    TAU / (PERIOD * step(component))
+}
+
+pub(crate) fn of(table: &Table, causality: Causality) -> Vec<usize> {
     let variables = table.variables().iter().enumerate();
     variables
         .filter(|(_, variable)| variable.causality == causality)
@@ -90,17 +110,36 @@ fn text(value: Value) -> String {
     }
 }
 
-/// Sets the inputs for the present time: a (1 - cos) where another input is the rate of this one, and that rate. Any other
-/// stays at its start value.
-fn set_inputs(component: &Component, simulation: &mut dyn DynSimulation, inputs: &[usize], omega: f64) -> Result<()> {
+/// Inputs that oscillate, each with its rate, the rate of that, and so on: those that have a rate and are none themselves.
+pub(crate) fn chains(table: &Table) -> Vec<Vec<usize>> {
+    let inputs = of(table, Causality::Input);
+    let is_rate = |position: &usize| inputs.iter().any(|other| table.derivative(*other) == Some(*position));
+    let chain = |first: usize| std::iter::successors(Some(first), |position| table.derivative(*position)).collect();
+    let chains = inputs
+        .iter()
+        .filter(|position| !is_rate(position))
+        .map(|first| chain(*first));
+    chains.filter(|chain: &Vec<usize>| chain.len() > 1).collect()
+}
+
+/// Sets the inputs for the present time: a (1 - cos) where another input is the rate of this one, and its rates. Any other stays
+/// at its start value.
+pub(crate) fn set_inputs(component: &Component, simulation: &mut dyn DynSimulation, omega: f64) -> Result<()> {
     let table = component.table();
     let phase = omega * simulation.time();
-    for input in inputs {
-        let Some(rate) = table.derivative(*input) else { continue };
-        let amplitude = (component.amplitude)(&table.variables()[*input], omega);
-        simulation.set_at(*input, Value::Real(amplitude * (1.0 - libm::cos(phase))))?;
-        if table.derivative(rate).is_none() {
-            simulation.set_at(rate, Value::Real(amplitude * omega * libm::sin(phase)))?;
+    let (sine, cosine) = (libm::sin(phase), libm::cos(phase));
+    for chain in chains(table) {
+        let mut amplitude = (component.amplitude)(&table.variables()[chain[0]], omega);
+        for (order, position) in chain.into_iter().enumerate() {
+            let value = match order % 4 {
+                _ if order == 0 => 1.0 - cosine,
+                0 => -cosine,
+                1 => sine,
+                2 => cosine,
+                _ => -sine,
+            };
+            simulation.set_at(position, Value::Real(amplitude * value))?;
+            amplitude *= omega;
         }
     }
     Ok(())

@@ -101,7 +101,7 @@ fn icon(xml: &mut Xml) -> io::Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use fmi_component::{ModelInfo, ModelType, Row, Unit};
+    use fmi_component::{DataSheet, ModelInfo, ModelType, Row, Unit};
 
     use super::*;
     use crate::component::Icon;
@@ -140,6 +140,7 @@ mod tests {
             structure: vec![],
             stop_time: 1.0,
             step_size: 0.1,
+            sheet: DataSheet::EMPTY,
         };
         let model = ModelType {
             info,

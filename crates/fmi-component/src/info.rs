@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
+use crate::sheet::DataSheet;
+
 /// Static facts of a model, for the model description and the documentation page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelInfo {
@@ -26,6 +28,8 @@ pub struct ModelInfo {
     pub stop_time: f64,
     /// Default experiment: communication step \[s\].
     pub step_size: f64,
+    /// What the documentation page says besides.
+    pub sheet: DataSheet,
 }
 
 impl ModelInfo {
@@ -42,6 +46,7 @@ impl ModelInfo {
             structure: Vec::new(),
             stop_time: 1.0,
             step_size: 0.01,
+            sheet: DataSheet::EMPTY,
         }
     }
 

@@ -22,7 +22,7 @@ pub struct Reached {
 /// What is doubtful about a run, though nothing is refused.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Warning {
-    /// What it is about: of one topic only the first warning is told.
+    /// What it is about: after the first warnings of a topic no others of it are told.
     pub topic: &'static str,
     /// What is doubtful, its values, and the remedy.
     pub text: String,

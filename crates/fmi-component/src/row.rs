@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
+use crate::recommended::{Derived, Recommended};
 use crate::unit::Unit;
 use crate::value::Value;
 use crate::variable::{Causality, Kind, Quantity, TerminalMember, Variable};
@@ -267,6 +268,29 @@ impl<M> Row<M> {
         self
     }
 
+    /// The same parameter with the range in which the model makes sense; outside of it the simulation warns with `reason`, which says
+    /// what is wrong there.
+    #[must_use]
+    pub fn recommended(mut self, range: RangeInclusive<f64>, reason: &'static str) -> Self {
+        self.variable.recommended = Some(Recommended {
+            of: None,
+            range,
+            reason,
+        });
+        self
+    }
+
+    /// As [`Row::recommended`], with the range of a quantity that the parameter makes together with others.
+    #[must_use]
+    pub fn recommended_by(mut self, of: Derived, range: RangeInclusive<f64>, reason: &'static str) -> Self {
+        self.variable.recommended = Some(Recommended {
+            of: Some(of),
+            range,
+            reason,
+        });
+        self
+    }
+
     fn make(
         name: impl Into<String>,
         description: impl Into<String>,
@@ -282,6 +306,7 @@ impl<M> Row<M> {
             dependencies: None,
             derivative: None,
             terminal: None,
+            recommended: None,
         };
         Self { variable, read }
     }

@@ -5,6 +5,7 @@
 //! cycle of FMI.
 
 mod lists;
+mod outside;
 mod refusal;
 mod saving;
 
@@ -38,6 +39,8 @@ pub struct Simulation<M> {
     model: Option<M>,
     /// What [`Simulation::limit_work`] asked for.
     most_work: Option<u64>,
+    /// Parameters of the model outside of their recommended ranges: they are frozen with it.
+    outside: Vec<Warning>,
 }
 
 impl<M: Model> Simulation<M> {
@@ -68,6 +71,7 @@ impl<M: Model> Simulation<M> {
             time: 0.0,
             model: None,
             most_work: None,
+            outside: Vec::new(),
         }
     }
 
@@ -78,6 +82,7 @@ impl<M: Model> Simulation<M> {
     pub fn start(&mut self, time: f64) -> Result<()> {
         check_start(time)?;
         self.model = Some(self.build(time, &self.values)?);
+        self.outside = outside::warnings(&self.values);
         (self.start, self.time) = (time, time);
         Ok(())
     }
@@ -321,9 +326,15 @@ impl<M: Model> Simulation<M> {
         }
     }
 
-    /// What is doubtful about the run so far, but for the topics that were `told` before; nothing before the start.
+    /// What is doubtful about the run so far, but for the topics that were `told` before; nothing before the start. Parameters
+    /// outside of their recommended ranges come first, all of them under one topic.
     pub fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
-        self.model.as_ref().map_or_else(Vec::new, |model| model.warnings(told))
+        let Some(model) = &self.model else { return Vec::new() };
+        let of_model = model.warnings(told);
+        match self.outside.first().filter(|warning| !told.contains(&warning.topic)) {
+            None => of_model,
+            Some(_) => [self.outside.clone(), of_model].concat(),
+        }
     }
 
     /// All values as of now, in the order of the variables.

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use crate::error::{Error, Result};
+use crate::recommended::Recommended;
 use crate::unit::Unit;
 use crate::value::Value;
 
@@ -112,6 +113,8 @@ pub struct Variable {
     pub derivative: Option<String>,
     /// Terminal that it belongs to.
     pub terminal: Option<TerminalMember>,
+    /// Range in which the model makes sense, of a parameter: outside of it the simulation warns. No part of the fingerprint.
+    pub recommended: Option<Recommended>,
 }
 
 impl Variable {

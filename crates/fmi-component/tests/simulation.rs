@@ -283,3 +283,52 @@ fn texts_are_parsed_by_kind() {
             .contains("one of: random, at_rest")
     );
 }
+
+/// What is outside belongs to the parameters: a state brings them back, and with them the warnings.
+#[test]
+fn parameters_outside_of_their_recommended_ranges_are_warned_of_until_they_were_told() {
+    let told = |row: &Oscillation, topics: &[&'static str]| -> Vec<String> {
+        row.warnings(topics).into_iter().map(|warning| warning.text).collect()
+    };
+    let inside = bodies(2);
+    assert_eq!(told(&inside, &[]), Vec::<String>::new());
+    let given = [("damper.damping", 20.0.into())];
+    let mut outside = Oscillation::new(&[("bodies", 2)], &given).unwrap();
+    let warnings = outside.warnings(&[]);
+    assert_eq!(warnings.len(), 1);
+    assert!(
+        warnings[0]
+            .text
+            .starts_with("damper.damping = 20 kg/s makes the damping ratio 3.16")
+    );
+    assert_eq!(told(&outside, &[warnings[0].topic]), Vec::<String>::new());
+    let saved = outside.save();
+    outside.restore(&inside.save()).unwrap();
+    assert_eq!(
+        told(&outside, &[]),
+        Vec::<String>::new(),
+        "the parameters of the state are inside"
+    );
+    outside.restore(&saved).unwrap();
+    assert_eq!(told(&outside, &[]).len(), 1);
+    outside.stop();
+    assert_eq!(told(&outside, &[]), Vec::<String>::new(), "nothing before the start");
+}
+
+/// Recommended ranges say nothing of what a model is: FMUs of earlier builds stay valid.
+#[test]
+fn recommended_ranges_are_no_part_of_the_fingerprint() {
+    let variables = Oscillators::variables(&bodies(2).structure().clone());
+    let with: Vec<Variable> = variables.into_iter().map(|row| row.variable).collect();
+    let without: Vec<Variable> = with
+        .iter()
+        .cloned()
+        .map(|variable| Variable {
+            recommended: None,
+            ..variable
+        })
+        .collect();
+    assert_ne!(with, without);
+    let fingerprint = |variables: &[Variable]| fmi_component::variable::fingerprint("1", variables);
+    assert_eq!(fingerprint(&with), fingerprint(&without));
+}

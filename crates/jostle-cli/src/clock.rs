@@ -1,6 +1,8 @@
 //! A model for tests: hands that turn at a constant rate and stop at a limit.
 
-use jostle::scene::{Model, ModelInfo, ModelType, Row, SceneInfo, Simulation, StructuralParameters, Unit, Values};
+use jostle::scene::{
+    DataSheet, Model, ModelInfo, ModelType, Row, SceneInfo, Simulation, StructuralParameters, Unit, Values,
+};
 use jostle::{Error, Result};
 
 pub struct Clock {
@@ -34,6 +36,7 @@ impl Model for Clock {
             default_disks: 3,
             stop_time: 1.0,
             step_size: 0.1,
+            sheet: DataSheet::EMPTY,
         }
         .into()
     }

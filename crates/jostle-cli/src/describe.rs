@@ -73,6 +73,9 @@ fn line(row: &Variable, run: usize) -> Vec<String> {
             description = format!("{stem}each disk");
         }
     }
+    if let Some(recommended) = &row.recommended {
+        description = format!("{description} [recommended: {}]", recommended.text());
+    }
     let start = if row.causality.is_settable() {
         row.start().to_string()
     } else {

@@ -4,13 +4,13 @@ use std::path::PathBuf;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use clap::{Args, ValueEnum};
-use fmi_bundle::{Component, Notices, Version, find_library, nominal_amplitude};
+use fmi_bundle::{Component, Notices, Origin, Version, find_library, nominal_amplitude};
 use jostle::Error;
 use jostle::scene::{Kind, Unit, Variable};
 
 use crate::failure::Failure;
 use crate::selection::{self, Selection};
-use crate::{icon, output_file};
+use crate::{changes, icon, output_file};
 
 /// The last second of the year 9999.
 const LATEST_DATE: u64 = 253_402_300_799;
@@ -70,6 +70,7 @@ impl Fmu {
         component.arrays = self.arrays;
         component.date = Some(date()?);
         component.notices = notices();
+        component.origin = origin();
         component.icon = Some(icon::of(component.info().name)?);
         component.replay_command = Some("jostle replay FILE.fmu".into());
         component.amplitude = reference_amplitude;
@@ -112,6 +113,21 @@ fn notices() -> Notices {
         license: env!("CARGO_PKG_LICENSE").into(),
         copyright: copyright.into(),
         files: files.map(|(name, text)| (name.into(), text.into())).into(),
+    }
+}
+
+/// Where the FMUs come from, as far as the manifest of this package says it: the page leaves out what is empty.
+fn origin() -> Origin {
+    const LOG: &str = include_str!("../../../CHANGELOG.md");
+    Origin {
+        authors: env!("CARGO_PKG_AUTHORS").into(),
+        repository: env!("CARGO_PKG_REPOSITORY").into(),
+        contact: env!("CARGO_PKG_HOMEPAGE").into(),
+        tools: format!(
+            "{}; the crates that are linked are listed in licenses/LICENSE-THIRD-PARTY.txt",
+            env!("JOSTLE_COMPILER")
+        ),
+        changes: changes::of_version(LOG, env!("CARGO_PKG_VERSION")),
     }
 }
 

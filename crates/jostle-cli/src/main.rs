@@ -5,6 +5,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))] // those of clippy.toml
 
 mod assignments;
+mod changes;
 #[cfg(test)]
 mod clock;
 mod describe;

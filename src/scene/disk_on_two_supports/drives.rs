@@ -18,6 +18,9 @@ pub trait DiskOnTwoSupportsDrive: Excitation {
     /// Terminal of the inputs that turn the disk, to which its angle belongs too, if there are any.
     const TERMINAL: Option<&'static str> = None;
 
+    /// Start value of the parameter `tilt` \[rad\].
+    const TILT: f64 = 0.0;
+
     /// What the positions of the supports depend on at the start, as in [`Row::depending_on`].
     const POSITIONS_AT_START: &'static [&'static str] = &[];
     /// What their velocities, and thus the forces of dashpots, depend on besides.

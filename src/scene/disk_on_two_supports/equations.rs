@@ -2,7 +2,6 @@
 
 /// HTML fragment.
 pub const HTML: &str = r"
-<h2>Equations</h2>
 <p>A disk of radius <i>R</i> and mass <i>m</i> lies on a left support 1 and a right support 2. The contacts make the angles
 &alpha;<sub>1</sub> = &theta;<sub>0</sub> &minus; &theta;<sub>T</sub> and &alpha;<sub>2</sub> = &theta;<sub>0</sub> +
 &theta;<sub>T</sub> with gravity.</p>

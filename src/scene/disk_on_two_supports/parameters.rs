@@ -3,11 +3,22 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
 use crate::contact::ContactLaws;
+use crate::elementary::sin_cos;
 use crate::engine::disk_on_two_supports::{SupportFrame, TwoSupportsRig};
 use crate::error::{Error, Result};
 use crate::scene::info::GRAVITY;
 use crate::scene::soft_disks::contact_laws;
-use crate::scene::{Row, Unit, Values, work_limit};
+use crate::scene::{Derived, Row, Unit, Values, recommended, work_limit};
+
+/// Where `mu tan theta_0` passes 1 the admissible region of the tangential forces is unbounded (P 4.4).
+const JAMMING: Derived = Derived {
+    name: "friction coefficient times the tangent of support.angle",
+    unit: Unit::ONE,
+    value: |real| {
+        let (sine, cosine) = sin_cos(real("support.angle"));
+        real("contact.friction") * sine / cosine
+    },
+};
 
 /// P 4.1, left and right.
 const SHAPES: &[(&str, &str)] = &[
@@ -15,22 +26,22 @@ const SHAPES: &[(&str, &str)] = &[
     ("walls", "Straight walls: a disk in a wedge"),
 ];
 
-/// All rows.
-pub fn rows<M>() -> Vec<Row<M>> {
-    let mut rows = geometry();
-    rows.extend(contact());
+/// All rows; `tilt` is the start value of the parameter of that name \[rad\].
+pub fn rows<M>(tilt: f64) -> Vec<Row<M>> {
+    let mut rows = geometry(tilt);
+    rows.extend(contact().into_iter().map(recommended::one_soft_disk));
     rows.extend(run());
     rows
 }
 
-fn geometry<M>() -> Vec<Row<M>> {
+fn geometry<M>(tilt: f64) -> Vec<Row<M>> {
     vec![
         Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 1e-3..=1e4, 10.0, GRAVITY),
         Row::parameter(
             "tilt",
             Unit::RADIAN,
             -FRAC_PI_2..=FRAC_PI_2,
-            0.0,
+            tilt,
             "Angle theta_T by which the supports are turned counter-clockwise; smaller than support.angle",
         )
         .with_nominal(0.1),
@@ -62,6 +73,11 @@ fn contact<M>() -> Vec<Row<M>> {
             1e-2..=1e6,
             1e3,
             "Tangential over normal stiffness, k_t / k_n",
+        )
+        // P 5 has 10 and 1000, so that springs yield less than overlaps; elastic bodies have 0.67 to 1.
+        .recommended(
+            0.1..=1e4,
+            "softer springs let the disk roll far while it sticks; stiffer ones only make the time step small.",
         ),
         Row::parameter(
             "contact.normal_damping",
@@ -76,6 +92,11 @@ fn contact<M>() -> Vec<Row<M>> {
             0.0..=10.0,
             0.1,
             "Friction coefficient mu",
+        )
+        .recommended_by(
+            JAMMING,
+            0.0..=1.0,
+            "the supports jam the disk, and the theory of sliding does not hold. Lower the friction or support.angle.",
         ),
     ]
 }

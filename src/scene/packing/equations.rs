@@ -2,7 +2,6 @@
 
 /// HTML fragment of the soft packing.
 pub const HTML: &str = r"
-<h2>Equations</h2>
 <p>Each disk obeys Newton's equations under gravity and the forces of its contacts with disks, walls and base.
 With <i>n</i> the unit normal towards the disk, &delta; the overlap, <i>u<sub>n</sub></i> and <i>u<sub>t</sub></i> the
 relative velocities of the surfaces:</p>
@@ -41,7 +40,6 @@ on the communication points.</p>
 
 /// HTML fragment of the hard packing.
 pub const HARD_HTML: &str = r"
-<h2>Equations</h2>
 <p>Disks fly on parabolas and meet in instantaneous impacts. An impact has the outcome of the soft contact's own: with
 <i>c</i> = &gamma;<sub>n</sub> / (2 &radic;(<i>k<sub>n</sub></i> <i>m</i>)) and the effective mass <i>m</i></p>
 <ul>

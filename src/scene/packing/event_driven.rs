@@ -12,6 +12,7 @@ use crate::scene::hard_disks::{self, EnergyRows, HardDisksOnBase};
 use crate::scene::work_limit::WorkLimit;
 use crate::scene::{
     Error, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning, info,
+    recommended,
 };
 
 use super::PackingState;
@@ -22,6 +23,7 @@ use super::initial_packing::{self, NAME};
 use super::rotation::{MeasuresRotation, RotationRecord};
 use super::rows::{self, AtStart};
 use super::settled::{self, Settled};
+use super::sheet;
 
 /// Event-driven packing whose base follows the inputs.
 pub type HardPackingOnInput = HardPacking<HardDisks<Moving<FollowsInput>>>;
@@ -184,7 +186,8 @@ impl<E: HardEngine> Model for HardPacking<E> {
             disks: 1..=100_000,
             default_disks: 60,
             stop_time: 10.0,
-            step_size: 1e-2,
+            step_size: if E::Drive::STEERED { 1e-3 } else { 1e-2 },
+            sheet: sheet::of("event-driven", E::Drive::NAME),
         }
         .into()
     }
@@ -207,7 +210,13 @@ impl<E: HardEngine> Model for HardPacking<E> {
         });
         let mut rows = rows::parameters();
         rows.extend(E::parameters());
-        rows.extend(E::Drive::rows());
+        // P 3.3: lasting contacts are rare from Gamma = 2 on; near 1 they are the rule.
+        let shaken = |row| {
+            let reason = "hard disks that hardly leave the base collide again and again, and the step is refused. Shake more, or use the \
+                          engine molecular-dynamics.";
+            recommended::shaken_enough(row, 1.2, reason)
+        };
+        rows.extend(E::Drive::rows().into_iter().map(shaken));
         // Hard disks on a base at rest collapse in no time.
         rows.push(settled::parameter(false));
         rows.extend(radii(disks, 0.02, &at_start.radii, Self::radius));

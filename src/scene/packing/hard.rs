@@ -78,13 +78,20 @@ impl<W: HardBase> HardEngine for HardDisks<W> {
     type Drive = W::Drive;
 
     fn parameters<M>() -> Vec<Row<M>> {
-        vec![Row::parameter(
-            "collision.contact_time",
-            Unit::SECOND,
-            0.0..=1.0,
-            1e-6,
-            "Impacts of a disk that follow its last one within this time lose nothing along the normal",
-        )]
+        vec![
+            Row::parameter(
+                "collision.contact_time",
+                Unit::SECOND,
+                0.0..=1.0,
+                1e-6,
+                "Impacts of a disk that follow its last one within this time lose nothing along the normal",
+            )
+            // A flight between impacts at some mm/s over some tens of um, and a soft contact, last about 1 ms.
+            .recommended(
+                0.0..=1e-4,
+                "impacts of free flights, some milliseconds apart, would lose nothing either.",
+            ),
+        ]
     }
 
     fn from_values(disks: &[Disk], masses: &[f64], start_time: f64, values: &Values) -> Result<Self> {

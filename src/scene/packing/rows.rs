@@ -8,7 +8,7 @@ use crate::scene::disks_on_base::{
     velocities,
 };
 use crate::scene::info::GRAVITY;
-use crate::scene::{Row, Unit, work_limit};
+use crate::scene::{Row, Unit, recommended, work_limit};
 
 use super::rotation::{self, MeasuresRotation};
 
@@ -200,21 +200,27 @@ pub fn parameters<M>() -> Vec<Row<M>> {
             0.0..=1e9,
             0.77,
             "Tangential over normal stiffness, kappa = k_t / k_n",
+        )
+        // Hertz and Mindlin: 2 (1 - nu) / (2 - nu), which is 2/3 to 1 for Poisson's ratios of 0 to 1/2.
+        .recommended(
+            0.0..=10.0,
+            "elastic bodies have 0.67 to 1; far stiffer tangential springs make the time step small, and each impact a series of \
+             oscillations.",
         ),
-        Row::parameter(
+        recommended::packing_damping(Row::parameter(
             "contact.normal_damping",
             Unit::KILOGRAM_PER_SECOND,
             0.0..=1e9,
             0.1,
             "Normal damping gamma_n of every contact",
-        ),
-        Row::parameter(
+        )),
+        recommended::friction(Row::parameter(
             "contact.friction",
             Unit::ONE,
             0.0..=1e6,
             0.1,
             "Friction coefficient mu of every contact",
-        ),
+        )),
         work_limit::row(),
     ];
     rows.extend(rotation::parameters());

@@ -11,14 +11,14 @@ use crate::scene::soft_disks::{SceneNormalForce, chosen_time_step, contact_laws,
 use crate::scene::work_limit::WorkLimit;
 use crate::scene::{
     Error, Listing, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning,
-    contact_list, info,
+    contact_list, info, recommended,
 };
 
 use super::initial_packing::{self, NAME};
 use super::rotation::{MeasuresRotation, RotationRecord};
 use super::rows::{self, AtStart};
 use super::settled::{self, Settled};
-use super::{PackingState, equations, soft::SoftMethod};
+use super::{PackingState, equations, sheet, soft::SoftMethod};
 
 /// What the largest time step depends on besides the radii and the drive.
 const STIFFEST: &[&str] = &[
@@ -272,6 +272,7 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
             default_disks: 60,
             stop_time: 10.0,
             step_size: 1e-3,
+            sheet: sheet::of(S::NAME, D::NAME),
         }
         .into()
     }
@@ -284,6 +285,7 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
         rows.extend(S::parameters());
         rows.extend(D::rows());
         rows.push(settled::parameter(D::STEERED));
+        let mut rows: Vec<Row<Self>> = rows.into_iter().map(recommended::soft_packing).collect();
         rows.extend(Self::time_steps());
         rows.extend(radii(disks, 0.02, &at_start.radii, |packing: &Self, disk| {
             packing.engine.radii()[disk]

@@ -2,7 +2,6 @@
 
 /// HTML fragment.
 pub const HTML: &str = r"
-<h2>Equations</h2>
 <p>Disks fly on parabolas in a cell that repeats horizontally and meet in instantaneous impacts: each other, the teeth of
 a base that moves vertically, and a ceiling. Positive is to the right, where the left side of a tooth is met first; with
 asymmetry below 0.5 that is the steeper one.</p>

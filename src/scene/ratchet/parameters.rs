@@ -2,7 +2,19 @@
 
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::info::GRAVITY;
-use crate::scene::{Kind, Row, Unit, work_limit};
+use crate::scene::{Derived, Kind, Row, Unit, recommended, work_limit};
+
+const STEEPNESS: Derived = Derived {
+    name: "height of a tooth over its width",
+    unit: Unit::ONE,
+    value: |real| real("tooth.height") / real("tooth.width"),
+};
+
+const SHARPNESS: Derived = Derived {
+    name: "tip radius over the width of a tooth",
+    unit: Unit::ONE,
+    value: |real| real("tooth.tip_radius") / real("tooth.width"),
+};
 
 /// Value of `disk.mass_rule` for equal masses; the other is equal density.
 pub const EQUAL_MASS: i64 = 1;
@@ -12,7 +24,15 @@ pub fn rows<D: BaseDrive, M>() -> Vec<Row<M>> {
     let mut rows = general();
     rows.extend(teeth());
     rows.extend(disks());
-    rows.extend(D::rows().into_iter().map(with_start_values_of_the_paper));
+    // Threshold of F: nothing is thrown off a base that accelerates less than gravity.
+    let shaken = |row| {
+        recommended::shaken_enough(
+            row,
+            0.9,
+            "disks are not thrown up, and lie on the teeth without flowing.",
+        )
+    };
+    rows.extend(D::rows().into_iter().map(with_start_values_of_the_paper).map(shaken));
     rows.push(Row::input(
         "measure.mark",
         Unit::SECOND,
@@ -63,20 +83,31 @@ fn general<M>() -> Vec<Row<M>> {
             0.0..=1.0,
             0.8,
             "Normal restitution of every impact",
+        )
+        // Above, a vibrated base heats disks without bound; below, clusters collapse and the floor of velocity decides the run.
+        .recommended(
+            0.3..=0.98,
+            "nearly elastic disks are thrown ever higher by the base; very lossy ones collapse into clusters that the floor of \
+             velocity keeps apart.",
         ),
-        Row::parameter(
+        recommended::friction(Row::parameter(
             "collision.friction",
             Unit::ONE,
             0.0..=1e6,
             0.1,
             "Friction coefficient of every impact",
-        ),
+        )),
         Row::parameter(
             "collision.minimum_normal_velocity",
             Unit::METRE_PER_SECOND,
             0.0..=1e3,
             5e-3,
             "No impact leaves slower than this along the normal: ends inelastic collapse",
+        )
+        // The base of F moves at 0.31 m/s. At 0.1 mm/s a disk at rest collides every 20 us.
+        .recommended(
+            1e-4..=0.03,
+            "a smaller floor makes disks at rest collide so often that steps are refused; a larger one feeds as much energy as the base.",
         ),
         work_limit::row(),
     ]
@@ -91,6 +122,11 @@ fn teeth<M>() -> Vec<Row<M>> {
             0.0..=1e3,
             6e-3,
             "Height of the sharp apex, before rounding; 0 is flat",
+        )
+        .recommended_by(
+            STEEPNESS,
+            0.0..=4.0,
+            "disks are caught in gaps between teeth that are deeper than wide by so much.",
         ),
         Row::parameter(
             "tooth.asymmetry",
@@ -105,6 +141,11 @@ fn teeth<M>() -> Vec<Row<M>> {
             0.0..=1e3,
             4e-4,
             "Radius of the arc that rounds the tip",
+        )
+        .recommended_by(
+            SHARPNESS,
+            5e-3..=0.2,
+            "no machined tip is sharper, and the velocity depends on it; a blunter one leaves little of the sides.",
         ),
         Row::long_parameter("tooth.count", 1..=1_000_000, 10, "Teeth in the periodic cell"),
     ]

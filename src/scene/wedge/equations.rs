@@ -2,7 +2,6 @@
 
 /// HTML fragment.
 pub const HTML: &str = r"
-<h2>Equations</h2>
 <p>A disk of radius <i>R</i> falls in a wedge of aperture &theta;<sub>W</sub> whose bisector is tilted counter-clockwise
 by &theta;<sub>T</sub>. With &theta;<sub>0</sub> = (&pi; &minus; &theta;<sub>W</sub>)/2 the left wall has the angle
 &theta;<sub>L</sub> = &minus;(&theta;<sub>0</sub> &minus; &theta;<sub>T</sub>), the right one &theta;<sub>R</sub> =

@@ -8,7 +8,7 @@ use crate::engine::wedge::WedgeFrame;
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::info::GRAVITY;
 use crate::scene::random_phase_base::PROFILE;
-use crate::scene::{Error, Kind, Result, Row, Unit, Values, work_limit};
+use crate::scene::{Error, Kind, Result, Row, Unit, Values, recommended, work_limit};
 
 /// Largest aperture \[rad\]: a little more than 179.9 degrees. Not a rounded pi.
 #[allow(clippy::approx_constant)]
@@ -65,6 +65,12 @@ pub fn geometry<M>() -> Vec<Row<M>> {
             1.047..=WIDEST,
             2.0944,
             "Angle theta_W between the walls",
+        )
+        // P 6: 90 to 179 degrees. In a narrower wedge walls hang over when it is tilted; a flatter one is a floor.
+        .recommended(
+            1.57..=3.13,
+            "the model was compared with P from 90 to 179 degrees; walls of narrower wedges hang over at large tilts, flatter ones \
+             hardly hold a disk.",
         ),
         Row::parameter(
             "wedge.tilt",
@@ -102,8 +108,19 @@ pub fn friction<M>() -> Vec<Row<M>> {
             0.0..=1e4,
             0.773,
             "Tangential over normal stiffness, kappa = k_t / k_n",
+        )
+        // From 1000 on the impact is that of Coulomb's law without a spring.
+        .recommended(
+            0.0..=1e3,
+            "elastic bodies have 0.67 to 1; beyond 1000 the outcome of an impact no longer changes and only takes longer to compute.",
         ),
-        Row::parameter("contact.friction", Unit::ONE, 0.0..=1e3, 0.1, "Friction coefficient mu"),
+        recommended::friction(Row::parameter(
+            "contact.friction",
+            Unit::ONE,
+            0.0..=1e3,
+            0.1,
+            "Friction coefficient mu",
+        )),
     ]
 }
 

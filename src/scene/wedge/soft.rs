@@ -11,7 +11,7 @@ use crate::geometry::{Disk, Vector2, Wall, clockwise};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::names;
 use crate::scene::soft_disks::{STEP_OF_ONE_DISK, chosen_time_step, contact_laws, refused_step};
-use crate::scene::{Error, Listing, Result, Row, Unit, Values, Warning, contact_list};
+use crate::scene::{Error, Listing, Result, Row, Unit, Values, Warning, contact_list, recommended};
 
 use super::engine::{AtStart, SpecificEnergies, WedgeEngine};
 use super::rows::{self, NAME};
@@ -38,7 +38,7 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
     };
 
     fn contact_rows<M>() -> Vec<Row<M>> {
-        vec![
+        let rows = vec![
             Row::parameter(
                 "contact.normal_stiffness",
                 Unit::NEWTON_PER_METRE,
@@ -61,11 +61,15 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
                 "Time step of the integration; 0: a hundredth of the shortest contact period",
             )
             .with_nominal(1e-7),
-        ]
+        ];
+        rows.into_iter().map(recommended::one_soft_disk).collect()
     }
 
     fn drive_rows<M>() -> Vec<Row<M>> {
         rows::drive::<M, D>()
+            .into_iter()
+            .map(recommended::one_soft_disk)
+            .collect()
     }
 
     fn own_outputs<M: AsRef<Self>>() -> Vec<Row<M>> {

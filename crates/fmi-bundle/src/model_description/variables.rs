@@ -85,7 +85,7 @@ fn element(
 }
 
 /// Description of an array from that of its first element: `Mass of body 1.` becomes `Mass of each body.`
-fn of_each(first: &str) -> String {
+pub(crate) fn of_each(first: &str) -> String {
     let stands_alone = |end: &usize| !first[*end..].starts_with(|next: char| next.is_alphanumeric());
     let mut ends = first.match_indices(" 1").map(|(start, one)| start + one.len());
     let Some(end) = ends.find(stands_alone) else {

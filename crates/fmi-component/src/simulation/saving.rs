@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Simulation;
+use super::{Simulation, outside};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::saved_bytes;
@@ -45,6 +45,7 @@ impl<M: Model> Simulation<M> {
     pub fn restore(&mut self, saved: &Saved<M::State>) -> Result<()> {
         self.check(saved)?;
         let same = self.start == saved.start && self.values.same_parameters(&saved.values);
+        let anew = saved.state.is_some() && !(same && self.model.is_some());
         match (&saved.state, self.model.as_mut().filter(|_| same)) {
             (None, _) => self.model = None,
             (Some(state), Some(model)) => model.restore(state)?,
@@ -57,6 +58,9 @@ impl<M: Model> Simulation<M> {
             }
         }
         self.values.put_back(&saved.values)?;
+        if anew {
+            self.outside = outside::warnings(&self.values);
+        }
         (self.start, self.time) = (saved.start, saved.time);
         Ok(())
     }

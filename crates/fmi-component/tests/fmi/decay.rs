@@ -1,6 +1,6 @@
 //! Exponential decay: a model without events whose time step follows from a tolerance.
 
-use fmi_component::{Model, ModelInfo, ModelType, Result, Row, StructuralParameters, Unit, Values};
+use fmi_component::{DataSheet, Model, ModelInfo, ModelType, Result, Row, StructuralParameters, Unit, Values};
 
 pub const DECAY: ModelType = ModelType::of::<Decay>();
 
@@ -26,6 +26,7 @@ impl Model for Decay {
             structure: vec![],
             stop_time: 1.0,
             step_size: 0.1,
+            sheet: DataSheet::EMPTY,
         }
     }
 

@@ -159,6 +159,27 @@ fn what_is_doubtful_is_logged_when_initialisation_ends() {
     assert_eq!(Client::two().ready(&[]).last_message(), "");
 }
 
+/// Parameters are frozen, so that it is said once, with the value, the range and the reason.
+#[test]
+fn a_parameter_outside_of_its_recommended_range_is_logged_once() {
+    for client in both() {
+        if client.three {
+            let categories = [c"logStatusWarning".as_ptr()];
+            // SAFETY: the instance is alive, and the category is a text that ends.
+            let answer = unsafe { fmi3SetDebugLogging(client.pointer, 1, 1, categories.as_ptr()) };
+            assert_eq!(answer, Ok);
+        }
+        // The critical damping is 6.3 kg/s.
+        let client = client.ready(&[("damper.damping", 20.0)]);
+        client.run((0, 2), 0.01);
+        let lines = client.log.borrow();
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert_eq!((lines[0].0, lines[0].1.as_str()), (1, "logStatusWarning"));
+        let told = "damper.damping = 20 kg/s makes the damping ratio 3.16, outside of the recommended range (0 to 1): the bodies creep";
+        assert!(lines[0].2.contains(told), "{lines:?}");
+    }
+}
+
 /// Only the very same step is answered by an error: with other inputs or from another state it may be possible.
 #[test]
 fn a_discarded_step_with_other_inputs_or_from_another_state_is_another_step() {

@@ -8,7 +8,14 @@ use crate::elementary::sin_cos;
 use crate::scene::disk_on_two_supports::DiskOnTwoSupportsScene;
 use crate::scene::disks_on_base::names;
 use crate::scene::drives::sine::sine_of;
-use crate::scene::{Row, TIME, Unit, Values};
+use crate::scene::{Derived, Row, TIME, Unit, Values};
+
+/// Displacement of the supports over that of the contacts under the weight.
+const SHAKING: Derived = Derived {
+    name: "displacement of the supports over the overlap under the weight",
+    unit: Unit::ONE,
+    value: |real| real("support.amplitude") * real("contact.normal_stiffness") / (real("disk.mass") * real("gravity")),
+};
 
 const SIGNS: &[(&str, &str)] = &[
     ("as_drawn", "The noise as generated"),
@@ -39,6 +46,11 @@ impl DiskOnTwoSupportsDrive for RandomSupports {
                 0.0..=1.0,
                 5e-5,
                 "Root mean square displacement A_b of each support in x and in y; R times that of its angle",
+            )
+            .recommended_by(
+                SHAKING,
+                0.0..=1.0,
+                "the supports move by more than the disk sinks in and lose contact all the time; the theory is that of lasting contacts.",
             ),
             Row::parameter(
                 "support.angular_frequency",
@@ -134,6 +146,8 @@ fn support_rows<const INDEX: usize>(which: &str) -> Vec<Row<DiskOnTwoSupportsSce
 impl DiskOnTwoSupportsDrive for SineSupports {
     const NAME: &'static str = "sine";
     const DESCRIPTION: &'static str = "Disk on two supports that vibrate sinusoidally";
+    /// Without tilt and phase difference all is symmetric, and the disk does not turn.
+    const TILT: f64 = 0.1;
     const POSITIONS_AT_START: &'static [&'static str] = &[
         TIME,
         "drive.amplitude",
@@ -151,8 +165,8 @@ impl DiskOnTwoSupportsDrive for SineSupports {
                 "drive.amplitude",
                 Unit::METRE,
                 0.0..=1.0,
-                1e-4,
-                "Amplitude A of the supports, A sin(2 pi f t + phase) along drive.direction",
+                4e-3,
+                "Amplitude A of the supports, A sin(2 pi f t + phase) along drive.direction; the default is Gamma = 1.6 at 10 Hz",
             ),
             Row::parameter(
                 "drive.frequency",

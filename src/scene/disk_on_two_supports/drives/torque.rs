@@ -7,10 +7,17 @@ use crate::drive::excitation::{HarmonicTorque, InputTorque};
 use crate::scene::disk_on_two_supports::DiskOnTwoSupportsScene;
 use crate::scene::disks_on_base::names;
 use crate::scene::drives::extrapolated;
-use crate::scene::{Row, TIME, Unit, Values, Warning};
+use crate::scene::{Derived, Row, TIME, Unit, Values, Warning};
 
 /// Terminal of the input torque.
 const TERMINAL: &str = "torque";
+
+/// P 5.2: the torque is slow against the oscillation of the disk on its contacts.
+const SLOWNESS: Derived = Derived {
+    name: "angular frequency of the torque over sqrt(k_n / m)",
+    unit: Unit::ONE,
+    value: |real| real("torque.angular_frequency") * (real("disk.mass") / real("contact.normal_stiffness")).sqrt(),
+};
 
 const TORQUE: &str = "torque";
 const RATE: &str = "torque.rate";
@@ -80,8 +87,8 @@ impl DiskOnTwoSupportsDrive for HarmonicTorque {
                 "torque.amplitude",
                 Unit::NEWTON_METRE,
                 0.0..=1e9,
-                0.113,
-                "Amplitude A_e of the torque A_e sin(omega_e t)",
+                0.15,
+                "Amplitude A_e of the torque A_e sin(omega_e t); the default is 1.3 times the one at which the disk begins to slide",
             ),
             Row::parameter(
                 "torque.angular_frequency",
@@ -89,6 +96,12 @@ impl DiskOnTwoSupportsDrive for HarmonicTorque {
                 1e-6..=1e9,
                 1.0,
                 "Angular frequency omega_e of the torque; slow is far below sqrt(k_n / m)",
+            )
+            .recommended_by(
+                SLOWNESS,
+                0.0..=0.5,
+                "the torque swings as fast as the disk does on its contacts; the theory is that of slow torques. Raise \
+                 contact.normal_stiffness or lower the frequency.",
             ),
         ]
     }

@@ -5,7 +5,8 @@
 #![allow(unsafe_code)] // the exported C functions; each is checked in `fmi_component::c_api`
 
 use fmi_component::{
-    Error, Model, ModelInfo, Reached, Result, Row, StructuralParameter, StructuralParameters, Unit, Values, Warning,
+    DataSheet, Derived, Error, Model, ModelInfo, Reached, Result, Row, StructuralParameter, StructuralParameters,
+    Symbol, Unit, Values, Warning,
 };
 use serde::{Deserialize, Serialize};
 
@@ -69,6 +70,20 @@ impl Model for Oscillators {
             }],
             stop_time: 1.0,
             step_size: 0.01,
+            sheet: DataSheet {
+                purpose: "Springs &amp; masses to try an importer with.",
+                limits: vec!["<b>Linear.</b> Springs of any length."],
+                without_inputs: "The frame stands still.",
+                picture: vec!["<circle class=\"body\" cx=\"160\" cy=\"120\" r=\"40\"/>"],
+                outputs: vec!["frame.reaction_force", "body.position"],
+                parameters: vec!["spring.stiffness"],
+                symbols: vec![Symbol {
+                    symbol: "<i>k</i>",
+                    variable: "spring.stiffness",
+                    meaning: "stiffness",
+                }],
+                example: None,
+            },
         }
     }
 
@@ -232,6 +247,15 @@ fn parameters() -> Vec<Row<Oscillators>> {
             0.0..=100.0,
             0.2,
             "Damping of all springs.",
+        )
+        .recommended_by(
+            Derived {
+                name: "damping ratio",
+                unit: Unit::ONE,
+                value: |real| real("damper.damping") / (2.0 * (real("spring.stiffness") * real("body.mass")).sqrt()),
+            },
+            0.0..=1.0,
+            "the bodies creep; 1 < c is no oscillator.",
         ),
         Row::long_parameter("seed", 0..=i64::MAX, 42, "Seed of the starting velocities."),
         Row::enumeration_parameter("start.pattern", "start_pattern", PATTERNS, 1, "How the bodies start."),

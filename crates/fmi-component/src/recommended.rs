@@ -10,6 +10,9 @@ use std::ops::RangeInclusive;
 use crate::unit::Unit;
 use crate::value::Value;
 
+/// How a quantity gets the real parameter of a name.
+pub type RealOf<'a> = &'a dyn Fn(&str) -> f64;
+
 /// A quantity that several parameters make together, such as the peak acceleration of a sine over gravity.
 #[derive(Clone, Copy)]
 pub struct Derived {
@@ -18,7 +21,7 @@ pub struct Derived {
     /// Its unit.
     pub unit: Unit,
     /// Its value; the argument gives the real parameter of a name.
-    pub value: fn(&dyn Fn(&str) -> f64) -> f64,
+    pub value: fn(RealOf) -> f64,
 }
 
 // The function belongs to the name: addresses of functions say nothing.
@@ -56,7 +59,7 @@ impl Recommended {
     }
 
     /// What is to be said of the parameter `name`, whose value reads `text`, if it is outside; `real` gives any real parameter.
-    pub fn warning(&self, name: &str, text: &str, real: &dyn Fn(&str) -> f64) -> Option<String> {
+    pub fn warning(&self, name: &str, text: &str, real: RealOf) -> Option<String> {
         let value = match &self.of {
             None => real(name),
             Some(derived) => (derived.value)(real),

@@ -4,21 +4,28 @@ from pathlib import Path
 
 from jostle_lab.tables import markdown_table, read_text_rows
 from tools.release.binaries import Row
+from tools.release.systems import SYSTEMS
 
 HEAD = """# Binaries
 
 Written by `python -m tools binaries --data docs/generated/binaries` from `docs/generated/binaries/*.csv`.
 The same command measured these after `scripts/release` and `scripts/setup`. `scripts/release` prints the table of its
-own run. x86-64 Linux.
+own run.
+
+## Linux on x86-64
 
 What ships is linked against glibc 2.17, of 2012; the newest symbol that it asks for is of {glibc}. Besides it needs
 nothing: zig puts the unwinder that catches panics and the mathematical functions inside. A plain `cargo build`, the
 columns on the right, asks for the glibc of the machine that it ran on, and for the compiler's `libgcc_s`.
 """
-TAIL = """An FMU holds the library, compressed, the model description, a documentation page, the licences, an icon and a
-reference trajectory. A packing has {packing} variables at 60 disks, five for each disk. The C library holds all scenes.
+TAIL = """An FMU holds the libraries, compressed, the model description, a documentation page, the licences, an icon and
+a reference trajectory. A packing has {packing} variables at 60 disks, five for each disk. The C library holds all
+scenes.
 
 Made with {tools}."""
+SYSTEMS_HEAD = """## Other systems
+The same script links these. `scripts/release --check` runs those for Windows by wine and those for Linux on 64-bit Arm
+by qemu. Nothing has run those for macOS. FMI 2.0 has no folder for 64-bit Arm."""
 
 
 def page(folder: Path) -> str:
@@ -29,6 +36,8 @@ def page(folder: Path) -> str:
     packing = next(row["variables"] for row in rows if row["name"].startswith("packing, molecular-dynamics, input"))
     parts = [HEAD.format(glibc=".".join(map(str, newest))).rstrip(), table(rows)]
     parts.append(TAIL.format(packing=packing, tools=tools))
+    if (folder / "systems.csv").is_file():
+        parts += [SYSTEMS_HEAD, table_of_systems(read_text_rows([folder / "systems.csv"]))]
     return "\n\n".join(parts) + "\n"
 
 
@@ -37,6 +46,21 @@ def table(rows: list[Row]) -> str:
     head = ["FMU", "library [kB]", "FMI 2.0 [kB]", "FMI 3.0 [kB]", "variables", "glibc", "needs"]
     head += ["plain build: library [kB]", "glibc", "needs besides"]
     return markdown_table(head, [_line(row) for row in rows])
+
+
+def table_of_systems(rows: list[Row]) -> str:
+    """Sizes in kB of what each system's folder holds, what all of it needs, and how it was checked."""
+    names = list(dict.fromkeys(row["name"] for row in rows))
+    lines = []
+    for platform, system in SYSTEMS.items():
+        own = {row["name"]: row for row in rows if row["platform"] == platform}
+        if not own:
+            continue
+        libraries = {name for title, row in own.items() if title != "command line" for name in row["needs"].split()}
+        sizes = [_kilobytes(own[name]["bytes"]) if name in own else "-" for name in names]
+        lines.append([system.title, *sizes, system.oldest, ", ".join(sorted(libraries)), system.checked])
+    head = ["system", *(f"{name} [kB]" for name in names), "from", "libraries need", "checked"]
+    return markdown_table(head, lines)
 
 
 def _line(row: Row) -> list[str]:

@@ -4,6 +4,7 @@ import re
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
+from zipfile import ZipFile
 
 from fmpy import read_model_description
 
@@ -139,7 +140,7 @@ def release_rows(folder: Path, native: Path) -> list[Row]:
             options = ["--engine", engine, "--drive", drive, "--fmi", str(version), "--out", str(file)]
             output_of([own / "jostle", "fmu", scene, *options, "--libraries", folder])
         row = _row(title(identifier), library, native)
-        row["fmi2_bytes"], row["fmi3_bytes"] = (str(file.stat().st_size) for file in files)
+        row["fmi2_bytes"], row["fmi3_bytes"] = (str(_size_for_this_system(file)) for file in files)
         row["variables"] = str(len(read_model_description(str(files[1])).modelVariables))
         rows.append(row)
     rows.append(_row(title("jostle_c"), own / "libjostle_c.so", native))
@@ -173,6 +174,17 @@ def _row(name: str, file: Path, native: Path) -> Row:
         row |= {"native_bytes": str(twin.stat().st_size), "native_glibc": plain.version}
         row["native_libraries"] = _short(plain)
     return row
+
+
+def _size_for_this_system(fmu: Path) -> int:
+    """Bytes of an FMU without the libraries of other systems."""
+    own = ("binaries/linux64/", f"binaries/{HOST}/")
+    with ZipFile(fmu) as archive:
+        members = archive.infolist()
+    others = (
+        entry for entry in members if entry.filename.startswith("binaries/") and not entry.filename.startswith(own)
+    )
+    return fmu.stat().st_size - sum(entry.compress_size for entry in others)
 
 
 def _short(found: Needs) -> str:

@@ -18,9 +18,9 @@ What ships is linked against glibc 2.17, of 2012; the newest symbol that it asks
 nothing: zig puts the unwinder that catches panics and the mathematical functions inside. A plain `cargo build`, the
 columns on the right, asks for the glibc of the machine that it ran on, and for the compiler's `libgcc_s`.
 """
-TAIL = """An FMU holds the libraries, compressed, the model description, a documentation page, the licences, an icon and
-a reference trajectory. A packing has {packing} variables at 60 disks, five for each disk. The C library holds all
-scenes.
+TAIL = """An FMU holds the library, compressed, the model description, a documentation page, the licences, an icon and a
+reference trajectory; these are without the libraries of other systems, each of which adds as much as the one for Linux.
+A packing has {packing} variables at 60 disks, five for each disk. The C library holds all scenes.
 
 Made with {tools}."""
 SYSTEMS_HEAD = """## Other systems

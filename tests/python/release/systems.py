@@ -1,4 +1,4 @@
-"""Systems that `scripts/release` built for, and how this machine runs a program of each: itself, by wine, or by qemu."""
+"""Systems that `scripts/release` built for, and how this machine runs programs of each: itself, by wine, by qemu."""
 
 import os
 import shutil
@@ -58,10 +58,12 @@ class System:
 
     @property
     def tools(self) -> Tools:
+        """What it needs here."""
         return SYSTEMS[self.name]
 
     @property
     def is_windows(self) -> bool:
+        """Whether its paths and names are those of Windows."""
         return self.name.endswith("windows")
 
     @property
@@ -71,16 +73,19 @@ class System:
 
     @property
     def jostle(self) -> Path:
+        """The command line."""
         return self.folder / self.tools.program.format("jostle")
 
-    def library(self, name: str, folder: Path = RELEASE) -> Path:
-        return folder / self.name / self.tools.library.format(name)
+    def library(self, name: str) -> Path:
+        """A library of the release, by its name in cargo."""
+        return RELEASE / self.name / self.tools.library.format(name)
 
     def path(self, file: Path) -> str:
         """How a program of this system calls a file of this machine."""
         return f"Z:{file}".replace("/", "\\") if self.is_windows else str(file)
 
     def run(self, program: Path, *words: str | Path, **variables: str) -> subprocess.CompletedProcess[str]:
+        """A program of this system, run with these words, of which paths are those of this machine."""
         texts = [self.path(word) if isinstance(word, Path) else word for word in words]
         return subprocess.run(
             [*self.tools.runner, str(program), *texts],
@@ -94,6 +99,7 @@ class System:
         )
 
     def output(self, program: Path, *words: str | Path, **variables: str) -> str:
+        """What it prints; it must succeed."""
         done = self.run(program, *words, **variables)
         assert done.returncode == 0, f"{program} {words}: {done.returncode}\n{done.stdout}{done.stderr}"
         return done.stdout

@@ -1,4 +1,4 @@
-"""What `scripts/release` built, run on Linux, under Windows by wine and on 64-bit Arm by qemu: the same bits everywhere.
+"""What `scripts/release` built, run on Linux, by wine for Windows and by qemu for 64-bit Arm: the same bits everywhere.
 
 Skipped, by the name of the system, where that was not built. `scripts/release --check` runs these tests.
 """

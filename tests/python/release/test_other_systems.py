@@ -47,7 +47,7 @@ def each(request: pytest.FixtureRequest, made: Path) -> System:
 @functools.cache
 def prepared(name: str, made: Path) -> System:
     folder = made / name
-    folder.mkdir()
+    folder.mkdir(exist_ok=True)
     return system(name, folder)
 
 

@@ -56,10 +56,15 @@ def table_of_systems(rows: list[Row]) -> str:
         own = {row["name"]: row for row in rows if row["platform"] == platform}
         if not own:
             continue
-        libraries = {name for title, row in own.items() if title != "command line" for name in row["needs"].split()}
+        libraries = {
+            name
+            for title, row in own.items()
+            if title not in ("C library", "command line")
+            for name in row["needs"].split()
+        }
         sizes = [_kilobytes(own[name]["bytes"]) if name in own else "-" for name in names]
         lines.append([system.title, *sizes, system.oldest, ", ".join(sorted(libraries)), system.checked])
-    head = ["system", *(f"{name} [kB]" for name in names), "from", "libraries need", "checked"]
+    head = ["system", *(f"{name} [kB]" for name in names), "from", "FMU libraries need", "checked"]
     return markdown_table(head, lines)
 
 

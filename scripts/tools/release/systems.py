@@ -65,7 +65,7 @@ SYSTEMS = {
 """By the names that FMI 3.0 has for them."""
 
 BESIDES = r"(userenv|ws2_32|advapi32|bcrypt|shell32|ole32|user32)\.dll|/System/Library/Frameworks/\S+"
-"""Other parts of every such system, which the C library and the command line may need: they hold all of Rust's `std`."""
+"""Other parts of every such system, which the C library and the command line need: all of Rust's `std` is in them."""
 
 
 def system_rows(folder: Path) -> list[Row]:

@@ -25,7 +25,7 @@ A packing has {packing} variables at 60 disks, five for each disk. The C library
 Made with {tools}."""
 SYSTEMS_HEAD = """## Other systems
 The same script links these. `scripts/release --check` runs those for Windows by wine and those for Linux on 64-bit Arm
-by qemu. Nothing has run those for macOS. FMI 2.0 has no folder for 64-bit Arm."""
+by qemu. Those for macOS cannot be run here. FMI 2.0 has no folder for 64-bit Arm."""
 
 
 def page(folder: Path) -> str:

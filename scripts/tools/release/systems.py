@@ -38,7 +38,7 @@ def _of_windows(library: Path) -> list[str]:
     stamp = re.search(r"^Time/Date\s+(.*)$", text, re.MULTILINE)
     if stamp is None or "1970" not in stamp[1]:
         raise LabError(f"{library} holds the time of its build. Link it with --no-insert-timestamp")
-    return sorted(name.lower() for name in re.findall(r"DLL Name: (\S+)", text))
+    return sorted({name.lower() for name in re.findall(r"DLL Name: (\S+)", text)})
 
 
 def _of_macos(library: Path) -> list[str]:
@@ -74,7 +74,9 @@ def system_rows(folder: Path) -> list[Row]:
         _row(platform, system, file)
         for platform, system in SYSTEMS.items()
         for file in sorted((folder / platform).glob("*"))
-        if not file.is_symlink() and (file.name.removesuffix(".exe") == "jostle" or f"{system.suffix}" in file.suffixes)
+        if not file.is_symlink()
+        and file.suffix != ".a"
+        and (file.name.removesuffix(".exe") == "jostle" or system.suffix in file.suffixes)
     ]
 
 

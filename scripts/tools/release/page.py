@@ -23,6 +23,8 @@ reference trajectory; these are without the libraries of other systems, each of 
 A packing has {packing} variables at 60 disks, five for each disk. The C library holds all scenes.
 
 Made with {tools}."""
+OTHERS = ("C library", "command line")
+"""What is no library of an FMU."""
 SYSTEMS_HEAD = """## Other systems
 The same script links these. `scripts/release --check` runs those for Windows by wine and those for Linux on 64-bit Arm
 by qemu. Those for macOS cannot be run here. FMI 2.0 has no folder for 64-bit Arm."""
@@ -49,23 +51,18 @@ def table(rows: list[Row]) -> str:
 
 
 def table_of_systems(rows: list[Row]) -> str:
-    """Sizes in kB of what each system's folder holds, what all of it needs, and how it was checked."""
-    names = list(dict.fromkeys(row["name"] for row in rows))
+    """What the FMU libraries of each system need and how they were checked; below it all sizes in kB."""
+    built = {name: system for name, system in SYSTEMS.items() if any(row["platform"] == name for row in rows)}
+    sizes = {(row["platform"], row["name"]): row["bytes"] for row in rows}
     lines = []
-    for platform, system in SYSTEMS.items():
-        own = {row["name"]: row for row in rows if row["platform"] == platform}
-        if not own:
-            continue
-        libraries = {
-            name
-            for title, row in own.items()
-            if title not in ("C library", "command line")
-            for name in row["needs"].split()
-        }
-        sizes = [_kilobytes(own[name]["bytes"]) if name in own else "-" for name in names]
-        lines.append([system.title, *sizes, system.oldest, ", ".join(sorted(libraries)), system.checked])
-    head = ["system", *(f"{name} [kB]" for name in names), "from", "FMU libraries need", "checked"]
-    return markdown_table(head, lines)
+    for platform, system in built.items():
+        of_fmus = [row for row in rows if row["platform"] == platform and row["name"] not in OTHERS]
+        needed = sorted({name for row in of_fmus for name in row["needs"].split()})
+        lines.append([system.title, system.oldest, ", ".join(needed), system.checked])
+    names = sorted({row["name"] for row in rows}, key=lambda name: (name in OTHERS, name))
+    table = [[name, *(_kilobytes(sizes.get((platform, name), "")) for platform in built)] for name in names]
+    head = ["system", "from", "FMU libraries need", "checked"]
+    return "\n\n".join([markdown_table(head, lines), markdown_table(["[kB]", *built], table)])
 
 
 def _line(row: Row) -> list[str]:

@@ -13,7 +13,7 @@ ROOT = HERE.parents[1]
 RELEASE = ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release"
 PROGRAM = Path(os.environ.get("JOSTLE_PROGRAM", RELEASE / "jostle"))
 FMUS = Path(os.environ.get("JOSTLE_FMUS", ROOT / "build"))
-sys.path[:0] = [str(HERE), str(HERE / "lab"), str(HERE / "fmus")]
+sys.path[:0] = [str(HERE), str(HERE / "lab"), str(HERE / "fmus"), str(HERE / "release")]
 
 
 def built(path: Path) -> Path:

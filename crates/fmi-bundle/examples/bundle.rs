@@ -1,11 +1,11 @@
 //! Writes the oscillators of `fmi-component` as an FMU: `bundle LIBRARY 2|3 OUT.fmu`, with the library that cargo built, such
-//! as `target/release/liboscillators.so`.
+//! as `target/release/liboscillators.so`, or with those in a folder that has one folder for each system.
 
 use std::path::Path;
 use std::process::ExitCode;
 
-use fmi_bundle::{Component, Version, write};
-use fmi_component::ModelType;
+use fmi_bundle::{Component, Libraries, Version, write};
+use fmi_component::{ModelType, Result};
 use oscillators::Oscillators;
 
 fn main() -> ExitCode {
@@ -19,13 +19,20 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    let written = Component::new(&ModelType::of::<Oscillators>(), &[])
-        .and_then(|component| write(&component, version, Path::new(library), Path::new(out)));
-    match written {
+    match bundle(Path::new(library), version, Path::new(out)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
             ExitCode::FAILURE
         }
     }
+}
+
+fn bundle(library: &Path, version: Version, out: &Path) -> Result<()> {
+    let component = Component::new(&ModelType::of::<Oscillators>(), &[])?;
+    let libraries = match library.is_dir() {
+        true => Libraries::from_folder(library, &component.info().identifier)?,
+        false => Libraries::from_file(library)?,
+    };
+    write(&component, version, &libraries, out)
 }

@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use fmi_bundle::{Component, Version, write};
+use fmi_bundle::{Component, Libraries, Version, write};
 use fmi_component::{ModelType, Result};
 
 #[path = "../../fmi-component/examples/dahlquist.rs"]
@@ -29,11 +29,12 @@ fn main() -> ExitCode {
 
 fn write_both(library: &Path, folder: &Path) -> Result<()> {
     let component = Component::new(&ModelType::of::<Dahlquist>(), &[])?;
+    let libraries = Libraries::from_file(library)?;
     for (version, name) in [
         (Version::Two, "dahlquist.fmi2.fmu"),
         (Version::Three, "dahlquist.fmi3.fmu"),
     ] {
-        write(&component, version, library, &folder.join(name))?;
+        write(&component, version, &libraries, &folder.join(name))?;
     }
     Ok(())
 }

@@ -1,11 +1,11 @@
-//! Component and library in, an `.fmu` file out. The same input gives the same bytes: fixed order, no date but that of the
+//! Component and libraries in, an `.fmu` file out. The same input gives the same bytes: fixed order, no date but that of the
 //! component.
 //!
 //! What is inside, for a model of the package `mechanics`:
 //! ```text
 //! modelDescription.xml
-//! binaries/linux64/<identifier>.so          FMI 2.0
-//! binaries/x86_64-linux/<identifier>.so     FMI 3.0
+//! binaries/linux64/<identifier>.so          FMI 2.0, and win64, darwin64
+//! binaries/x86_64-linux/<identifier>.so     FMI 3.0, and aarch64-linux, x86_64-windows, ...
 //! documentation/index.html, documentation/licenses/
 //! extra/mechanics/reference.csv             what it computes, for `replay`
 //! extra/org.fmi-standard.fmi-ls-ref/        the same as an experiment, by the layered standard FMI-LS-REF
@@ -15,16 +15,16 @@
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs;
-use std::io::{self, Cursor, ErrorKind, Write};
+use std::io::{self, Cursor, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use fmi_component::{Error, Result, Version};
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipWriter};
 
+use crate::archive::{self, Member};
 use crate::check::check_names;
 use crate::component::{Component, Notices};
-use crate::platform::platform;
+use crate::libraries::Libraries;
+use crate::platform::Platform;
 use crate::replay::{TOLERANCE, replay_archive};
 use crate::{documentation, model_description, reference, related_files, terminals};
 
@@ -48,22 +48,38 @@ pub fn find_library(identifier: &str, folders: &[&Path]) -> Result<PathBuf> {
     })
 }
 
-/// Writes the FMU of `component` for `version` to `out`, with the binary `library`, which is loaded and run along the reference
-/// trajectory: a library of another model, or of other sources, is refused. [`pack`] takes any bytes.
+/// Writes the FMU of `component` for `version` to `out` with `libraries`. That of this system is loaded and run along the
+/// reference trajectory: a library of another model, or of other sources, is refused. Those of other systems cannot be run here;
+/// [`replay()`](crate::replay()) does that where they run. [`pack`] runs none.
+///
+/// The FMU has no library for the platforms that [`Libraries::left_out`] names.
 ///
 /// # Errors
-/// The library cannot be read, is not that of `component`, or the FMU cannot be written. There is then no new file, and one
-/// that was there is as before.
-pub fn write(component: &Component, version: Version, library: &Path, out: &Path) -> Result<()> {
+/// There is no library for this system among them, it is not that of `component`, or the FMU cannot be written. There is then no
+/// new file, and one that was there is as before.
+pub fn write(component: &Component, version: Version, libraries: &Libraries, out: &Path) -> Result<()> {
+    let library = Platform::host().and_then(|host| libraries.path(host)).ok_or_else(|| {
+        let host = Platform::host().map_or("an unknown system", Platform::name);
+        Error::call(
+            format!("there is no library for this system, {host}, so that none can be run and compared"),
+            "Add it, or write the FMU on one of the systems of its libraries.",
+        )
+    })?;
+    let bytes = pack(component, version, libraries)?;
+    check_library(library, &bytes)?;
+    write_file(out, &bytes)
+}
+
+/// Writes a file whole or not at all: beside the target and then renamed, so that nobody meets half an FMU.
+///
+/// # Errors
+/// The file cannot be written; one that was there is as before.
+pub(crate) fn write_file(out: &Path, bytes: &[u8]) -> Result<()> {
     if fs::metadata(out).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
         return Err(Error::file(out, "it is a device, no file", "Give the name of a file."));
     }
-    let binary = fs::read(library).map_err(|error| cannot_read(library, &error))?;
-    let bytes = pack(component, version, &binary)?;
-    check_library(library, &bytes)?;
-    // Beside the target and then renamed, so that nobody meets half an FMU.
     let partial = out.with_added_extension("part");
-    fs::write(&partial, &bytes)
+    fs::write(&partial, bytes)
         .and_then(|()| fs::rename(&partial, out))
         .map_err(|error| {
             let _ = fs::remove_file(&partial);
@@ -88,15 +104,6 @@ fn check_library(library: &Path, fmu: &[u8]) -> Result<()> {
     Err(foreign(format!(
         "{name} at t = {time} s differs by {largest:.1e} of its size from what this program computes; allowed is {TOLERANCE:e}"
     )))
-}
-
-fn cannot_read(library: &Path, error: &io::Error) -> Error {
-    let remedy = match error.kind() {
-        ErrorKind::NotFound => "Build it: cargo build --release --workspace, or name the file where it is.",
-        ErrorKind::PermissionDenied => "Allow reading it.",
-        _ => "Name the file of the library.",
-    };
-    Error::file(library, error, remedy)
 }
 
 /// Why a file cannot be written, and what to do about it.
@@ -129,11 +136,12 @@ pub fn cannot_write(out: &Path, error: &io::Error) -> Error {
     Error::file(out, what, remedy)
 }
 
-/// The bytes of the FMU.
+/// The bytes of the FMU, with those of `libraries` that an FMU of `version` has a folder for.
 ///
 /// # Errors
-/// Arrays in FMI 2.0, an array with the name of another variable, or the archive cannot be made.
-pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<u8>> {
+/// Arrays in FMI 2.0, no library with a folder in this version, an array with the name of another variable, or the archive
+/// cannot be made.
+pub fn pack(component: &Component, version: Version, libraries: &Libraries) -> Result<Vec<u8>> {
     if component.arrays && version == Version::Two {
         return Err(Error::parameter(
             "version of FMI",
@@ -143,40 +151,43 @@ pub fn pack(component: &Component, version: Version, binary: &[u8]) -> Result<Ve
         ));
     }
     check_names(component.names())?;
-    let failed = |error: &dyn ToString| Error::call(format!("the archive: {}", error.to_string()), "Try again.");
-    let path = format!(
-        "binaries/{}/{}{DLL_SUFFIX}",
-        platform(version),
-        component.info().identifier
-    );
-    let texts = files(component, version, binary)?;
-    let texts = texts.iter().map(|(path, content)| (path, content.as_slice(), 0o644));
-    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    for (path, content, permissions) in texts.chain([(&path, binary, 0o755)]) {
-        let options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Deflated)
-            .last_modified_time(DateTime::default())
-            .unix_permissions(permissions);
-        archive
-            .start_file(path.as_str(), options)
-            .map_err(|error| failed(&error))?;
-        archive.write_all(content).map_err(|error| failed(&error))?;
+    let binaries: Vec<_> = libraries
+        .iter()
+        .filter_map(|(platform, bytes)| Some((platform, platform.folder(version)?, bytes)))
+        .collect();
+    if binaries.is_empty() {
+        let left_out: Vec<_> = libraries.left_out(version).into_iter().map(Platform::name).collect();
+        let what = match left_out.join(", ").as_str() {
+            "" => "an FMU needs a library, and there is none".into(),
+            names => format!("FMI 2.0 has no folder for {names}, and there is no other library"),
+        };
+        return Err(Error::call(
+            what,
+            "Add a library for another system, or write it for FMI 3.0.",
+        ));
     }
-    Ok(archive.finish().map_err(|error| failed(&error))?.into_inner())
+    let page = binaries.iter().map(|&(platform, _, bytes)| (platform, bytes));
+    let mut members = files(component, version, &documentation::libraries(page))?;
+    let identifier = &component.info().identifier;
+    members.extend(binaries.iter().map(|(platform, folder, bytes)| Member {
+        path: format!("binaries/{folder}/{identifier}{}", platform.suffix()),
+        bytes: bytes.to_vec(),
+    }));
+    archive::write(&members)
 }
 
-/// All files but the binary, each with its path.
-fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(String, Vec<u8>)>> {
+/// All files but the libraries, which the documentation page lists by the text `libraries`.
+fn files(component: &Component, version: Version, libraries: &str) -> Result<Vec<Member>> {
     // First: a model that panics is told of by what every FMU has.
     let reference = reference::record(component)?;
-    let mut list = vec![
+    let mut list: Vec<(String, Vec<u8>)> = vec![
         (
             "modelDescription.xml".into(),
             model_description::write(component, version).into_bytes(),
         ),
         (
             "documentation/index.html".into(),
-            documentation::write(component, version, binary)?.into_bytes(),
+            documentation::write(component, version, libraries)?.into_bytes(),
         ),
     ];
     list.extend(licenses(&component.notices));
@@ -191,7 +202,7 @@ fn files(component: &Component, version: Version, binary: &[u8]) -> Result<Vec<(
     }
     let terminals = terminals::write(component).map(String::into_bytes);
     list.extend(terminals.map(|text| ("terminalsAndIcons/terminalsAndIcons.xml".into(), text)));
-    Ok(list)
+    Ok(list.into_iter().map(|(path, bytes)| Member { path, bytes }).collect())
 }
 
 /// The texts of `notices`, and the file `license.txt` that FMI asks for and that names them.

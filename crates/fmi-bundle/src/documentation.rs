@@ -11,15 +11,19 @@ use fmi_component::{Result, Version};
 use quick_xml::escape::escape;
 
 use crate::component::Component;
+pub use origin::{libraries, with_libraries, without_build};
+
+/// Path of the page in an FMU.
+pub const PATH: &str = "documentation/index.html";
 
 const STYLE: &str = include_str!("documentation/style.css");
 
 /// The page: what goes in and out, what the model is for and where it is wrong, a run, equations, variables, what an importer can
-/// use, and where it comes from.
+/// use, and where it comes from. `libraries` is a text of [`libraries()`].
 ///
 /// # Errors
 /// The model panics in the run that the page shows, which is a defect of it.
-pub fn write(component: &Component, version: Version, binary: &[u8]) -> Result<String> {
+pub fn write(component: &Component, version: Version, libraries: &str) -> Result<String> {
     let info = component.info();
     let title = title(component);
     let sections = [
@@ -32,7 +36,7 @@ pub fn write(component: &Component, version: Version, binary: &[u8]) -> Result<S
             "What an importer can use",
             capabilities::write(component, version),
         ),
-        ("origin", "Version and licence", origin::write(component, binary)),
+        ("origin", "Version and licence", origin::write(component, libraries)),
     ];
     let shown = sections.iter().filter(|(.., content)| !content.is_empty());
     let links: Vec<String> = shown

@@ -72,7 +72,9 @@ impl Library {
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let name = format!("fmu-{}-{number}{}", std::process::id(), std::env::consts::DLL_SUFFIX);
         let path = std::env::temp_dir().join(name);
-        fs::write(&path, bytes).map_err(|error| Error::file(&path, error, "Make room, or set TMPDIR."))?;
+        let variable = if cfg!(windows) { "TMP" } else { "TMPDIR" };
+        fs::write(&path, bytes)
+            .map_err(|error| Error::file(&path, error, format!("Make room, or set {variable} to another folder.")))?;
         let mut loaded = Self { library: None, path };
         // SAFETY: loading runs the initialisers of the library: the user named this FMU to be run.
         let library = unsafe { libloading::Library::new(&loaded.path) };

@@ -1,21 +1,25 @@
 //! FMUs of any model of [`fmi_component`]: model description, documentation page, terminals, icon, reference trajectory and
 //! library in one archive, for FMI 2.0 and FMI 3.0.
 //!
-//! A [`Component`] is a model with its structural parameters, notices and icon. [`write()`] puts it into a file with the library
-//! that exports the model; [`replay()`] runs the library in such a file and compares it with the trajectory beside it.
+//! A [`Component`] is a model with its structural parameters, notices and icon. [`write()`] puts it into a file with the
+//! [`Libraries`] that export the model, one for each [`Platform`]; [`replay()`] runs the library of this system in such a file and
+//! compares it with the trajectory beside it. [`merge()`] joins FMUs of one model that were made on different systems.
 //!
 //! ```text
-//! Component -> model_description, documentation, terminals, reference -> bundle -> FILE.fmu -> replay
+//! Component -> model_description, documentation, terminals, reference -> bundle -> FILE.fmu -> merge, replay
 //! ```
 //!
 #![doc = include_str!("../README.md")]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))] // those of clippy.toml
 
+mod archive;
 mod bundle;
 mod check;
 mod component;
 mod documentation;
 mod importer;
+mod libraries;
+mod merge;
 pub mod model_description;
 mod platform;
 pub mod reference;
@@ -27,4 +31,7 @@ mod xml;
 pub use bundle::{cannot_write, find_library, pack, write};
 pub use component::{Component, Icon, Notices, Origin, nominal_amplitude};
 pub use fmi_component::Version;
+pub use libraries::Libraries;
+pub use merge::merge;
+pub use platform::Platform;
 pub use replay::{ReplayReport, TOLERANCE, replay};

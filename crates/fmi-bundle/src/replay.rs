@@ -19,9 +19,10 @@ use fmi_component::{Error, Result};
 use zip::ZipArchive;
 
 use crate::importer::{Instance, Library, MAKE_ANEW};
-use crate::platform::platform;
+use crate::platform::Platform;
 use crate::reference;
-use description::{Column, Description};
+use description::Column;
+pub(crate) use description::Description;
 use trajectory::Trajectory;
 
 /// Largest difference that passes, relative to the greater of a variable's nominal and its largest value in the table.
@@ -73,9 +74,8 @@ pub fn replay(fmu: &Path) -> Result<ReplayReport> {
 pub fn replay_archive(fmu: impl Read + Seek) -> Result<Option<ReplayReport>> {
     let refused = |what: String| Error::call(what, MAKE_ANEW);
     let mut archive = ZipArchive::new(fmu).map_err(|error| refused(error.to_string()))?;
-    let mut paths = archive.file_names().flatten();
-    let table = paths.find(|path| reference::is_path(path)).map(Cow::into_owned);
-    drop(paths);
+    let held: Vec<String> = archive.file_names().flatten().map(Cow::into_owned).collect();
+    let table = held.iter().find(|path| reference::is_path(path)).cloned();
     let table = table.ok_or_else(|| refused("it holds no reference trajectory".into()))?;
     let mut member = |path: &str| {
         let mut bytes = Vec::new();
@@ -88,9 +88,7 @@ pub fn replay_archive(fmu: impl Read + Seek) -> Result<Option<ReplayReport>> {
     let description = Description::read(&String::from_utf8_lossy(&member("modelDescription.xml")?))
         .map_err(|error| refused(format!("modelDescription.xml: {error}")))?;
     let trajectory = Trajectory::read(&member(&table)?).map_err(|error| refused(format!("{table}: {error}")))?;
-    let extension = std::env::consts::DLL_SUFFIX;
-    let folder = platform(description.version);
-    let binary = member(&format!("binaries/{folder}/{}{extension}", description.identifier))?;
+    let binary = member(&binary_path(&description, &held)?)?;
     let unknown = |name: &str| refused(format!("{table} names {name}, which modelDescription.xml does not"));
     let column = |name: &String| description.column(name).ok_or_else(|| unknown(name));
     let columns = trajectory.names[1..].iter().map(column).collect::<Result<Vec<_>>>()?;
@@ -99,6 +97,39 @@ pub fn replay_archive(fmu: impl Read + Seek) -> Result<Option<ReplayReport>> {
         return Ok(None);
     }
     compare(instance, &trajectory, &columns).map(Some)
+}
+
+/// Where the library of this system is among the files `held` of an FMU.
+fn binary_path(description: &Description, held: &[String]) -> Result<String> {
+    let host = Platform::host().ok_or_else(|| {
+        let what = "FMI has no folder for the library of this system";
+        Error::call(
+            what,
+            "Replay it on x86-64 or 64-bit Arm, under Linux, Windows or macOS.",
+        )
+    })?;
+    let folder = host.folder(description.version).ok_or_else(|| {
+        let what = format!("FMI 2.0 has no folder for the library of this system, {host}");
+        Error::call(what, "Name the FMU of FMI 3.0.")
+    })?;
+    let path = format!("binaries/{folder}/{}{}", description.identifier, host.suffix());
+    if held.contains(&path) {
+        return Ok(path);
+    }
+    let mut folders: Vec<&str> = held
+        .iter()
+        .filter_map(|path| path.strip_prefix("binaries/")?.split('/').next())
+        .collect();
+    folders.dedup();
+    let found = if folders.is_empty() {
+        "no library".into()
+    } else {
+        format!("libraries for {}", folders.join(", "))
+    };
+    Err(Error::call(
+        format!("it holds {found}, but not {path}"),
+        "Name an FMU with a library for this system, or add it by fmu-bundle merge.",
+    ))
 }
 
 fn compare(mut instance: Instance, table: &Trajectory, columns: &[Column]) -> Result<ReplayReport> {

@@ -7,9 +7,9 @@ mod support;
 use std::io::{Cursor, Read};
 use std::path::Path;
 
-use fmi_bundle::{Component, Version, find_library, model_description, pack, write};
+use fmi_bundle::{Component, Libraries, Platform, Version, find_library, model_description, pack, write};
 use fmi_component::{ModelInfo, ModelType};
-use support::{MODEL, component, folder, library};
+use support::{MODEL, component, fakes, folder, libraries, library};
 use zip::ZipArchive;
 
 /// Functions that an export table writes, from its source.
@@ -49,14 +49,15 @@ fn an_fmu_holds_what_each_standard_asks_for() {
             "terminalsAndIcons/icon.png",
         ),
     ] {
-        let bytes = pack(&component(), version, b"library").unwrap();
+        let libraries = fakes::libraries(&[Platform::X86Linux]);
+        let bytes = pack(&component(), version, &libraries).unwrap();
         assert_eq!(
             bytes,
-            pack(&component(), version, b"library").unwrap(),
+            pack(&component(), version, &libraries).unwrap(),
             "the same bytes each time"
         );
         let mut archive = ZipArchive::new(Cursor::new(bytes)).unwrap();
-        assert_eq!(text(&mut archive, binary), "library");
+        assert!(text(&mut archive, binary).starts_with("\x7fELF"));
         for icon in [icon, "terminalsAndIcons/icon.png"] {
             assert!(text(&mut archive, icon).ends_with("PNG"));
         }
@@ -131,7 +132,9 @@ fn a_panic_of_the_model_is_an_error() {
         ..MODEL
     };
     let component = Component::new(&in_a_run, &[]).unwrap();
-    let message = pack(&component, Version::Three, b"").unwrap_err().to_string();
+    let message = pack(&component, Version::Three, &fakes::libraries(&[Platform::X86Linux]))
+        .unwrap_err()
+        .to_string();
     assert!(
         message.contains("the reference trajectory") && message.contains("set to panic"),
         "{message}"
@@ -178,7 +181,9 @@ fn elements_become_one_array_where_arrays_are_wanted() {
     let text = model_description::write(&component, Version::Three);
     assert!(text.contains(r#"<Float64 name="body.position" valueReference="13" description="Position of each body.""#));
     assert!(text.contains(r#"<Dimension start="3"/>"#) && !text.contains("body.position["));
-    let message = pack(&component, Version::Two, b"").unwrap_err().to_string();
+    let message = pack(&component, Version::Two, &fakes::libraries(&[Platform::X86Linux]))
+        .unwrap_err()
+        .to_string();
     assert!(
         message.starts_with("version of FMI = 2.0 is not allowed: 3.0"),
         "{message}"
@@ -192,9 +197,7 @@ fn a_missing_library_is_reported_with_the_remedy() {
         .to_string();
     assert!(message.contains("not found in here"), "{message}");
     assert!(message.contains("cargo build --release --workspace"), "{message}");
-    let message = write(&component(), Version::Two, Path::new("no_such.so"), Path::new("a.fmu"))
-        .unwrap_err()
-        .to_string();
+    let message = Libraries::from_file(Path::new("no_such.so")).unwrap_err().to_string();
     assert!(message.contains("cargo build --release --workspace"), "{message}");
 }
 
@@ -210,7 +213,7 @@ fn a_structural_parameter_out_of_range_is_refused_with_its_range() {
 fn an_fmu_that_cannot_be_written_leaves_no_file_and_says_why() {
     let folder = folder("refused");
     let refused = |out: &Path| {
-        write(&component(), Version::Three, &library(), out)
+        write(&component(), Version::Three, &libraries(), out)
             .unwrap_err()
             .to_string()
     };
@@ -236,7 +239,7 @@ fn an_fmu_that_cannot_be_written_leaves_no_file_and_says_why() {
 fn a_full_disk_is_reported_as_such_and_leaves_nothing() {
     let folder = folder("full");
     std::os::unix::fs::symlink("/dev/full", folder.join("a.fmu.part")).unwrap();
-    let written = write(&component(), Version::Three, &library(), &folder.join("a.fmu"));
+    let written = write(&component(), Version::Three, &libraries(), &folder.join("a.fmu"));
     let message = written.unwrap_err().to_string();
     assert!(
         message.contains("no space left in") && message.contains("Make room"),
@@ -258,16 +261,19 @@ fn a_library_of_another_version_and_a_file_that_is_none_are_refused() {
         ..MODEL
     };
     let other = Component::new(&other, &[]).unwrap();
-    let refused = |component, library: &Path| write(component, Version::Three, library, &out).unwrap_err().to_string();
-    let message = refused(&other, &library());
+    let written = |library: &Path| write(&other, Version::Three, &Libraries::from_file(library)?, &out);
+    let message = written(&library()).unwrap_err().to_string();
     assert!(message.starts_with(&library().display().to_string()), "{message}");
     assert!(
         message.contains("instantiation token") && message.contains("from the same sources"),
         "{message}"
     );
     std::fs::write(&text, "no library").unwrap();
-    let message = refused(&component(), &text);
-    assert!(message.contains("text.so: its library is not loaded"), "{message}");
+    let message = written(&text).unwrap_err().to_string();
+    assert!(
+        message.contains("text.so: it is no library") && message.contains("x86_64-linux"),
+        "{message}"
+    );
     assert!(!out.exists());
     std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use fmi_bundle::{Component, Version, model_description, pack};
+use fmi_bundle::{Component, Libraries, Version, model_description, pack};
 use fmi_component::{Model, ModelInfo, ModelType, Row, StructuralParameters, Unit, Variable};
 use oscillators::Oscillators;
 
@@ -113,7 +113,9 @@ fn an_array_with_the_name_of_a_scalar_is_refused() {
     };
     let mut component = Component::new(&model, &[]).unwrap();
     component.arrays = true;
-    let message = pack(&component, Version::Three, b"").unwrap_err().to_string();
+    let message = pack(&component, Version::Three, &Libraries::default())
+        .unwrap_err()
+        .to_string();
     assert!(
         message.starts_with("arrays = b is not allowed: one variable of each name"),
         "{message}"

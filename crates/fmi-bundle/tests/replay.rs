@@ -4,9 +4,9 @@
 
 mod support;
 
-use fmi_bundle::{Component, Version, pack, reference, replay, write};
+use fmi_bundle::{Component, Platform, Version, pack, reference, replay, write};
 use fmi_component::{ModelType, Value};
-use support::{MODEL, component, folder, library};
+use support::{MODEL, component, fakes, folder, libraries};
 
 #[test]
 fn a_replay_is_equal_to_the_bit_in_every_form() {
@@ -15,17 +15,39 @@ fn a_replay_is_equal_to_the_bit_in_every_form() {
     let mut component = component();
     for (version, arrays) in [(Version::Two, false), (Version::Three, false), (Version::Three, true)] {
         component.arrays = arrays;
-        write(&component, version, &library(), &fmu).unwrap();
+        write(&component, version, &libraries(), &fmu).unwrap();
         let report = replay(&fmu).unwrap();
         assert!(report.passes() && report.values > 400, "{report:?}");
         assert_eq!((report.differing, report.rows), (0, 97), "{report:?}");
     }
     std::fs::write(&fmu, "no archive").unwrap();
     assert!(replay(&fmu).unwrap_err().to_string().contains("oscillators.fmu"));
-    std::fs::write(&fmu, pack(&component, Version::Three, b"no library").unwrap()).unwrap();
-    let message = replay(&fmu).unwrap_err().to_string();
+    let refused = |platforms: &[Platform], version| {
+        let bytes = pack(&self::component(), version, &fakes::libraries(platforms)).unwrap();
+        std::fs::write(&fmu, bytes).unwrap();
+        replay(&fmu).unwrap_err().to_string()
+    };
+    let message = refused(&[Platform::host().unwrap()], Version::Three);
     assert!(
         message.contains("oscillators.fmu: its library is not loaded"),
+        "{message}"
+    );
+    let foreign: Vec<_> = Platform::ALL
+        .into_iter()
+        .filter(|&platform| Some(platform) != Platform::host())
+        .collect();
+    let message = refused(&foreign, Version::Three);
+    assert!(
+        message.contains("it holds libraries for aarch64-linux, x86_64-windows,"),
+        "{message}"
+    );
+    assert!(
+        message.contains("but not binaries/x86_64-linux/oscillators.so"),
+        "{message}"
+    );
+    let message = refused(&foreign, Version::Two);
+    assert!(
+        message.contains("it holds libraries for win64, darwin64, but not binaries/linux64/"),
         "{message}"
     );
     std::fs::remove_dir_all(&folder).unwrap();
@@ -46,14 +68,13 @@ fn a_library_that_computes_something_else_does_not_pass() {
         ..MODEL
     };
     let component = Component::new(&stiffer, &[]).unwrap();
-    let written = write(&component, Version::Three, &library(), &fmu);
+    let written = write(&component, Version::Three, &libraries(), &fmu);
     let message = written.unwrap_err().to_string();
     assert!(
         message.contains("of its size from what this program computes") && !fmu.exists(),
         "{message}"
     );
-    let binary = std::fs::read(library()).unwrap();
-    std::fs::write(&fmu, pack(&component, Version::Three, &binary).unwrap()).unwrap();
+    std::fs::write(&fmu, pack(&component, Version::Three, &libraries()).unwrap()).unwrap();
     let report = replay(&fmu).unwrap();
     assert!(!report.passes() && report.differing > 100, "{report:?}");
     std::fs::remove_dir_all(&folder).unwrap();

@@ -1,10 +1,10 @@
 //! `jostle fmu`: writes a scene as an FMU.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use clap::{Args, ValueEnum};
-use fmi_bundle::{Component, Notices, Origin, Version, find_library, nominal_amplitude};
+use fmi_bundle::{Component, Libraries, Notices, Origin, Platform, Version, find_library, nominal_amplitude};
 use jostle::Error;
 use jostle::scene::{Kind, Unit, Variable};
 
@@ -34,6 +34,10 @@ pub struct Fmu {
     /// and not every importer reads arrays; for large counts.
     #[arg(long)]
     arrays: bool,
+    /// Folder with the libraries of several systems, all of which the FMU gets: x86_64-windows/NAME.dll, aarch64-linux/NAME.so and so
+    /// on, as scripts/release makes them. That of this system may be missing there: it is then taken from beside this program.
+    #[arg(long, value_name = "FOLDER")]
+    libraries: Option<PathBuf>,
     /// File to write.
     #[arg(long, value_name = "FILE.fmu")]
     out: PathBuf,
@@ -74,9 +78,25 @@ impl Fmu {
         component.icon = Some(icon::of(component.info().name)?);
         component.replay_command = Some("jostle replay FILE.fmu".into());
         component.amplitude = reference_amplitude;
-        let library = library(&component.info().identifier)?;
-        Ok(fmi_bundle::write(&component, version, &library, &self.out)?)
+        let libraries = libraries(&component.info().identifier, self.libraries.as_deref())?;
+        fmi_bundle::write(&component, version, &libraries, &self.out)?;
+        for platform in libraries.left_out(version) {
+            eprintln!("jostle: FMI 2.0 has no folder for {platform}: its library is left out");
+        }
+        Ok(())
     }
+}
+
+/// The libraries of a scene: those in `folder`, and for this system that beside the program where `folder` has none.
+fn libraries(identifier: &str, folder: Option<&Path>) -> Result<Libraries, Error> {
+    let mut libraries = match folder {
+        Some(folder) => Libraries::from_folder(folder, identifier)?,
+        None => Libraries::default(),
+    };
+    if Platform::host().is_none_or(|host| libraries.get(host).is_none()) {
+        libraries.add_file(&library(identifier)?)?;
+    }
+    Ok(libraries)
 }
 
 /// The library of a scene: beside this program, or one folder above, where tests and examples run.

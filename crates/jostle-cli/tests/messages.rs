@@ -176,6 +176,36 @@ fn what_is_not_possible_is_told_in_the_words_of_the_options() {
     assert!(!message.contains("engine"), "{message}");
 }
 
+#[test]
+fn a_folder_without_the_libraries_of_other_systems_is_refused_by_name() {
+    let folder = folder("libraries");
+    let other = folder.join("other/x86_64-windows");
+    std::fs::create_dir_all(&other).unwrap();
+    std::fs::write(other.join("jostle_wedge_map.dll"), "").unwrap();
+    std::fs::create_dir_all(folder.join("empty")).unwrap();
+    for (name, said) in [
+        (
+            "missing",
+            "Name a folder that holds one folder for each platform: x86_64-linux, ",
+        ),
+        (
+            "empty",
+            "empty: it has no folder of a platform. Allowed names are x86_64-linux, ",
+        ),
+        (
+            "other",
+            "x86_64-windows: it holds jostle_wedge_map.dll, but not jostle_packing.dll. Build the library of",
+        ),
+    ] {
+        let (folder, out) = (folder.join(name), folder.join("never.fmu"));
+        let [folder, out] = [&folder, &out].map(|path| path.to_str().unwrap());
+        let (code, message) = refused(&["fmu", "packing", "--libraries", folder, "--out", out]);
+        assert_eq!(code, Some(1), "{message}");
+        assert!(message.contains(folder) && message.contains(said), "{message}");
+    }
+    assert!(!folder.join("never.fmu").exists());
+}
+
 /// A file may have two blocks here: the last row that fits is told, and the one that is cut is not counted.
 #[cfg(target_os = "linux")]
 #[test]

@@ -1,18 +1,22 @@
 """What a shipped library asks of the machine, how large it is, and what is in it that its scene does not need."""
 
-import ctypes
 import re
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
+from zipfile import ZipFile
 
 from fmpy import read_model_description
 
 from jostle_lab.errors import LabError
 from jostle_lab.programs import output_of
+from tools.paths import MODEL_DESCRIPTIONS
 
 OLDEST_GLIBC = (2, 17)
 """What anything that ships may need at most: what zig links against in scripts/release, of the year 2012."""
+
+HOST = "x86_64-linux"
+"""Folder of what runs on this machine, in that of a release."""
 
 COLUMNS = (
     "name",
@@ -106,39 +110,48 @@ def _has_twin(library: Path) -> bool:
     return library.stem.endswith("_sine") or library.stem in {"libjostle_wedge_map", "libjostle_wedge_event_driven"}
 
 
-def scenes(c_library: Path) -> list[tuple[str, str, str]]:
-    """Scene, engine and drive of everything that the C library knows."""
-    try:
-        loaded = ctypes.CDLL(str(c_library))
-    except OSError as error:
-        raise LabError(f"{c_library} is not loaded: {error}. Build it with scripts/release") from None
-    loaded.jostle_scenes.restype = ctypes.c_size_t
-    text = ctypes.create_string_buffer(1 << 16)
-    loaded.jostle_scenes(text, ctypes.c_size_t(len(text)))
-    rows = (line.split(" ") for line in text.value.decode().splitlines())
-    return [(scene, engine, drive) for scene, engine, drive in rows]
+def scenes() -> dict[str, tuple[str, str, str]]:
+    """Scene, engine and drive of each FMU library, by its name such as `jostle_wedge_map`."""
+    found = {}
+    for file in sorted(MODEL_DESCRIPTIONS.glob("*.fmi3.xml")):
+        token = re.search(r'instantiationToken="jostle:([^:]+):([^:]+):([^:]+):', file.read_text(encoding="utf-8"))
+        if token is None:
+            raise LabError(f"{file} has no instantiation token of jostle's. Write it anew: see CONTRIBUTING.md")
+        found[file.name.removesuffix(".fmi3.xml")] = (token[1], token[2], token[3])
+    return found
 
 
 def release_rows(folder: Path, native: Path) -> list[Row]:
-    """Bundles every FMU with the libraries in `folder`; sizes and needs, beside those of a plain build in `native`.
+    """Bundles an FMU of each version for every library in `folder`, with those of all systems.
 
-    Raises LabError if something asks for more than it may.
+    Returns sizes and needs under Linux, beside those of a plain build in `native`. Raises LabError if something asks
+    for more than it may.
     """
     rows = []
+    own = folder / HOST
     out = folder / "fmu"
     out.mkdir(exist_ok=True)
-    for scene, engine, drive in scenes(folder / "libjostle_c.so"):
+    for identifier, (scene, engine, drive) in scenes().items():
+        library = own / f"lib{identifier}.so"
+        if not library.is_file():  # --only
+            continue
         files = [out / f"{scene}-{engine}-{drive}.fmi{version}.fmu" for version in (2, 3)]
         for version, file in zip((2, 3), files, strict=True):
             options = ["--engine", engine, "--drive", drive, "--fmi", str(version), "--out", str(file)]
-            output_of([folder / "jostle", "fmu", scene, *options])
-        row = _row(f"{scene}, {engine}, {drive}", folder / f"lib{_identifier(files[1])}.so", native)
-        row["fmi2_bytes"], row["fmi3_bytes"] = (str(file.stat().st_size) for file in files)
+            output_of([own / "jostle", "fmu", scene, *options, "--libraries", folder])
+        row = _row(title(identifier), library, native)
+        row["fmi2_bytes"], row["fmi3_bytes"] = (str(_size_for_this_system(file)) for file in files)
         row["variables"] = str(len(read_model_description(str(files[1])).modelVariables))
         rows.append(row)
-    rows.append(_row("C library", folder / "libjostle_c.so", native))
-    rows.append(_row("command line", folder / "jostle", native))
+    rows.append(_row(title("jostle_c"), own / "libjostle_c.so", native))
+    rows.append(_row(title("jostle"), own / "jostle", native))
     return rows
+
+
+def title(name: str) -> str:
+    """What people call a library or program."""
+    other = {"jostle_c": "C library", "jostle": "command line"}
+    return other[name] if name in other else ", ".join(scenes()[name])
 
 
 def tools() -> list[Row]:
@@ -163,13 +176,16 @@ def _row(name: str, file: Path, native: Path) -> Row:
     return row
 
 
+def _size_for_this_system(fmu: Path) -> int:
+    """Bytes of an FMU without the libraries of other systems."""
+    own = ("binaries/linux64/", f"binaries/{HOST}/")
+    with ZipFile(fmu) as archive:
+        members = archive.infolist()
+    others = (
+        entry for entry in members if entry.filename.startswith("binaries/") and not entry.filename.startswith(own)
+    )
+    return fmu.stat().st_size - sum(entry.compress_size for entry in others)
+
+
 def _short(found: Needs) -> str:
     return " ".join(sorted(name.split(".")[0] for name in found.libraries if not name.startswith("ld-")))
-
-
-def _identifier(fmu: Path) -> str:
-    listing = output_of(["python3", "-m", "zipfile", "-l", fmu])
-    found = re.search(r"binaries/x86_64-linux/(\S+)\.so", listing)
-    if not found:
-        raise LabError(f"{fmu} holds no library. Bundle it again")
-    return found[1]

@@ -8,7 +8,7 @@ import typer
 from jostle_lab.errors import LabError
 from jostle_lab.tables import write_table
 from tools.paths import BUILD, TARGET
-from tools.release import page
+from tools.release import page, systems
 from tools.release.binaries import COLUMNS, release_rows, strangers, tools, unknown
 from tools.release.verify import verify as verify_release
 
@@ -34,10 +34,13 @@ def binaries(
             if library.stem != "libjostle_c" and (found := strangers(library)):
                 raise LabError(f"{library} holds {len(found)} symbols of other scenes, such as {found[0]}")
     rows = release_rows(folder, native)
+    others = systems.system_rows(folder)
     typer.echo(page.table(rows))
+    typer.echo(page.table_of_systems(others))
     if data is not None:
         data.mkdir(parents=True, exist_ok=True)
         write_table(data / "sizes.csv", rows, COLUMNS)
+        write_table(data / "systems.csv", others, systems.COLUMNS)
         write_table(data / "tools.csv", tools())
         data.with_suffix(".md").write_text(page.page(data))
 

@@ -19,6 +19,7 @@ from jostle_lab.errors import LabError
 from jostle_lab.fmu.instance import FmuInstance
 from jostle_lab.programs import completed
 from jostle_lab.tables import parse_csv
+from tools.release.binaries import HOST
 
 REFERENCE = "extra/jostle/reference.csv"
 """Where an FMU keeps its reference trajectory."""
@@ -40,7 +41,7 @@ def verify(folder: Path, probes: list[Path]) -> list[str]:
         three = two.with_name(two.name.replace(".fmi2.", ".fmi3."))
         counts = []
         for fmu in (two, three):
-            _replayed(folder / "jostle", fmu)
+            _replayed(folder / HOST / "jostle", fmu)
             problems = validate_fmu(str(fmu))
             _hold(not problems, f"fmpy's validator finds in {fmu}: {problems}")
             counts.append(_along_the_reference(fmu))

@@ -1,8 +1,11 @@
 //! The oscillators of `fmi-component` as a component with all that an FMU may hold.
 
+#[allow(dead_code)] // not each of the tests needs libraries that are none
+pub mod fakes;
+
 use std::path::PathBuf;
 
-use fmi_bundle::{Component, Icon, Notices, find_library};
+use fmi_bundle::{Component, Icon, Libraries, Notices, find_library};
 use fmi_component::ModelType;
 use oscillators::Oscillators;
 
@@ -38,4 +41,10 @@ pub fn folder(name: &str) -> PathBuf {
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).unwrap();
     folder
+}
+
+/// The library of [`library`] alone.
+#[allow(dead_code)] // not each of the tests loads it
+pub fn libraries() -> Libraries {
+    Libraries::from_file(&library()).unwrap()
 }

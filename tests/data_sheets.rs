@@ -5,11 +5,14 @@
 
 use std::io::{Cursor, Read};
 
-use fmi_bundle::{Component, Version, pack};
+use fmi_bundle::{Component, Platform, Version, pack};
 use fmi_component::{Causality, ExampleRun, Kind, ModelType, Value};
 use jostle::scene::catalogue::MODELS;
 use zip::ZipArchive;
 
+#[path = "../crates/fmi-bundle/tests/support/fakes.rs"]
+#[allow(dead_code)] // what other tests use
+mod fakes;
 #[path = "support/fmus.rs"]
 mod fmus;
 
@@ -19,7 +22,10 @@ const LARGEST_PAGE: usize = 60_000;
 const LARGEST_PICTURE: usize = 30_000;
 
 fn page(component: &Component) -> String {
-    let mut archive = ZipArchive::new(Cursor::new(pack(component, Version::Three, b"library").unwrap())).unwrap();
+    let mut archive = ZipArchive::new(Cursor::new(
+        pack(component, Version::Three, &fakes::libraries(&[Platform::X86Linux])).unwrap(),
+    ))
+    .unwrap();
     let mut text = String::new();
     let mut entry = archive.by_name("documentation/index.html").unwrap();
     entry.read_to_string(&mut text).unwrap();

@@ -113,7 +113,10 @@ impl Part {
                 return Err(differs(format!("{what} is {theirs:?}, in {first} it is {ours:?}")));
             }
         }
-        for member in &self.members {
+        // The page last: it shows what the other files hold, and says less of it.
+        let mut members: Vec<&Member> = self.members.iter().collect();
+        members.sort_by_key(|member| member.path == documentation::PATH);
+        for member in members {
             let Some(twin) = other.members.iter().find(|twin| twin.path == member.path) else {
                 return Err(differs(format!("it lacks {}, which {first} holds", member.path)));
             };

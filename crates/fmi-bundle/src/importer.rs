@@ -153,12 +153,15 @@ impl Instance {
     ///
     /// # Errors
     /// The library refuses.
-    pub fn initialize(&mut self, start: f64) -> Result<()> {
+    pub fn initialize(&mut self, start: f64, inputs: &[(u32, f64)]) -> Result<()> {
         let enter = self.library.symbol::<Enter>(c"fmi3EnterInitializationMode")?;
         let exit = self.library.symbol::<Plain>(c"fmi3ExitInitializationMode")?;
         // SAFETY: the signatures are those of the standard, the pointer is that of a living instance.
         let entered = unsafe { enter(self.pointer, 0, 0.0, start, 0, 0.0) };
         self.check("fmi3EnterInitializationMode", entered)?;
+        for (reference, value) in inputs {
+            self.set(*reference, *value)?;
+        }
         // SAFETY: as above.
         let left = unsafe { exit(self.pointer) };
         self.check("fmi3ExitInitializationMode", left)

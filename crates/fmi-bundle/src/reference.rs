@@ -53,6 +53,8 @@ fn run(component: &Component) -> Result<String> {
     writer.write_record(header).map_err(failed)?;
     let (steps, step, omega) = (steps(component), step(component), omega(component));
     let mut simulation = (component.model().prepare)(component.structure().clone());
+    // Inputs have their first values when a model starts, as importers give them.
+    set_inputs(component, &mut *simulation, omega)?;
     let mut advanced = simulation.start(0.0);
     for _ in 0..=steps {
         if advanced.is_err() {

@@ -134,7 +134,10 @@ fn binary_path(description: &Description, held: &[String]) -> Result<String> {
 
 fn compare(mut instance: Instance, table: &Trajectory, columns: &[Column]) -> Result<ReplayReport> {
     let (inputs, outputs): (Vec<_>, Vec<_>) = (1..table.names.len()).partition(|index| columns[index - 1].input);
-    instance.initialize(table.rows[0][0])?;
+    let first = inputs
+        .iter()
+        .map(|index| (columns[index - 1].reference, table.rows[0][*index]));
+    instance.initialize(table.rows[0][0], &first.collect::<Vec<_>>())?;
     let mut report = ReplayReport {
         rows: table.rows.len(),
         values: 0,

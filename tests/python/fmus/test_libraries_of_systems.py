@@ -45,6 +45,6 @@ def test_all_libraries_with_a_folder_are_in_the_fmu(
         page = archive.read("documentation/index.html").decode()
     assert sorted(entry.filename.split("/")[1] for entry in binaries) == folders
     assert all(entry.external_attr >> 16 & 0o777 == 0o755 for entry in binaries)
-    assert page.count("<td>x86_64-windows</td>") == 1
+    assert page.count("x86_64-windows") == 1
     subprocess.run([jostle, "replay", "--exact", fmu], check=True, capture_output=True)
     assert len(fmpy.simulate_fmu(str(fmu), stop_time=0.1, output_interval=0.01)) == 11

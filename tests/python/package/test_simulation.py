@@ -23,8 +23,8 @@ import jostle
 from jostle._core import Core
 from jostle.variables import find, grouped
 
-LONG = 40.0
-"""A step of half a second of processor time, so that other threads come to their turn meanwhile [s]."""
+LONG = 160.0
+"""A step of two seconds of processor time, so that other threads come to their turn meanwhile [s]."""
 SHAKEN = {"drive.amplitude": 1e-4, "drive.frequency": 60.0}
 
 

@@ -137,6 +137,7 @@ fn record(component: &Component, run: &ExampleRun, shown: &[usize]) -> Result<Re
         refused: None,
     };
     let mut simulation = (component.model().prepare)(component.structure().clone());
+    reference::set_inputs(component, &mut *simulation, omega)?; // as the program of the page does
     let mut advanced = simulation.start(0.0);
     for count in 1..=run.steps + 1 {
         if let Err(error) = advanced {

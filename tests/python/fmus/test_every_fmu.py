@@ -43,7 +43,7 @@ COMPONENTS = [
 
 
 def test_no_component_is_forgotten() -> None:
-    assert sorted(COMPONENTS) == sorted(scenes())
+    assert sorted(COMPONENTS) == sorted(scenes().values())
 
 
 @pytest.mark.parametrize(("scene", "engine", "drive"), COMPONENTS)

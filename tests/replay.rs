@@ -36,8 +36,14 @@ fn growth(model: &ModelType) -> f64 {
     };
     let mut twin = (model.prepare)(component.structure().clone());
     twin.set_at(changed, quantity.start.next_up().into()).unwrap();
-    twin.start(0.0).unwrap();
     assert!(rows.len() > 16, "{identifier} refuses its reference");
+    for (index, name) in names.iter().enumerate().skip(1) {
+        let position = table.position(name).unwrap();
+        if table.variables()[position].causality == Causality::Input {
+            twin.set_at(position, rows[0][index].into()).unwrap();
+        }
+    }
+    twin.start(0.0).unwrap();
     let mut largest: f64 = 0.0;
     for (number, row) in rows.iter().enumerate() {
         for (index, name) in names.iter().enumerate().skip(1) {

@@ -184,6 +184,7 @@ def test_two_threads_in_one_simulation_are_refused() -> None:
     sim = packing()
     worker = threading.Thread(target=sim.run, args=(LONG,), kwargs={"every": LONG})
     worker.start()
+    time.sleep(0.3)  # until its step has begun: else it may be the worker that is refused
     refused = 0
     while worker.is_alive():
         try:

@@ -3,7 +3,7 @@
 import math
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -96,11 +96,11 @@ def dataset_of(frame: pl.DataFrame, parameters: Mapping[str, Any]) -> "xr.Datase
     """A table of `jostle run` as the dataset that Python's `run` returns: elements joined into arrays."""
     if "time" not in frame.columns:
         raise LabError(f"The table has no column time; its first are {', '.join(frame.columns[:4])}. Make it again.")
-    single, arrays = _grouped([name for name in frame.columns if name != "time"])
+    single, arrays = _grouped([name for name in frame.columns if name != "time"], parameters)
     data: dict[str, Any] = {name: ("time", frame[name].to_numpy()) for name in single}
     for name, columns in arrays.items():
         data[name] = (("time", name.partition(".")[0]), frame.select(columns).to_numpy())
-    attributes, fixed = _grouped(list(parameters))
+    attributes, fixed = _grouped(list(parameters), ())
     coordinates: dict[str, Any] = {"time": frame["time"].cast(pl.Float64).to_numpy()}
     for name, elements in fixed.items():
         values = np.array([_number(parameters[element]) for element in elements], dtype=np.float64)
@@ -114,12 +114,12 @@ def dataset_of(frame: pl.DataFrame, parameters: Mapping[str, Any]) -> "xr.Datase
     return built
 
 
-def _grouped(names: list[str]) -> tuple[list[str], dict[str, list[str]]]:
-    """Single names, and those of elements by their numbers under the name of their array."""
+def _grouped(names: list[str], taken: Collection[str]) -> tuple[list[str], dict[str, list[str]]]:
+    """Single names, and those of elements by their numbers under the name of their array, unless that is `taken`."""
     single, arrays = [], dict[str, dict[int, str]]()
     for name in names:
         match = ELEMENT.match(name)
-        if match is None:
+        if match is None or match["before"] + match["after"] in taken:
             single.append(name)
         else:
             arrays.setdefault(match["before"] + match["after"], {})[int(match["number"])] = name

@@ -45,6 +45,16 @@ def test_netcdf_is_the_dataset_of_the_package(jostle: Path, tmp_path: Path, scen
         assert {name: found.attrs[name] for name in expected.attrs} == expected.attrs
 
 
+def test_an_array_whose_name_a_parameter_has_keeps_its_elements(jostle: Path, tmp_path: Path) -> None:
+    """`support.angle` is a parameter, `support[1].angle` an output: NetCDF and Python name them alike."""
+    words = ["three_disk", "--drive", "random-supports", "--seconds", "0.3", "--sample", "0.1"]
+    run(jostle, words, "--output", tmp_path / "run.nc")
+    with xr.open_dataset(tmp_path / "run.nc", engine="scipy") as found:
+        expected = package.Simulation("three_disk", drive="random-supports").run(0.3, every=0.1)
+        xr.testing.assert_equal(found, expected)
+        assert found.attrs["support.angle"] == expected.attrs["support.angle"]
+
+
 def test_a_seed_of_64_bits_is_kept_as_text(jostle: Path, tmp_path: Path) -> None:
     seed = "9223372036854775807"
     words = ["packing", "--disks", "3", "--set", f"seed={seed}", "--seconds", "0.01"]
@@ -57,7 +67,10 @@ def test_parquet_is_read_by_pandas_and_polars_as_csv_is(jostle: Path, tmp_path: 
     words = ["three_disk", "--seconds", "0.3", "--sample", "0.001"]
     for name in ("run.csv", "run.parquet"):
         run(jostle, words, "--output", tmp_path / name)
-    found, expected = pl.read_parquet(tmp_path / "run.parquet"), pl.read_csv(tmp_path / "run.csv", infer_schema_length=None)
+    found, expected = (
+        pl.read_parquet(tmp_path / "run.parquet"),
+        pl.read_csv(tmp_path / "run.csv", infer_schema_length=None),
+    )
     assert found.columns == expected.columns
     assert found["slips"].dtype == pl.Int64
     assert found.cast(pl.Float64).equals(expected.cast(pl.Float64))

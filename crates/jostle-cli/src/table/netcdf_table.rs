@@ -61,7 +61,7 @@ impl NetCdfTable {
     /// It cannot be made.
     pub fn create(path: &Path, columns: &[Column], facts: &[Fact], fixed: &[Coordinate]) -> Result<Self, Failure> {
         let failure = |error: io::Error| Failure::file(path, &error);
-        let arrays = grouped(columns);
+        let arrays = grouped(columns, facts);
         let head = head(&arrays, facts, fixed).map_err(failure)?;
         let mut file = File::create(path).map_err(failure)?;
         write_whole(&mut file, &head).map_err(failure)?;
@@ -120,11 +120,14 @@ fn dimension(name: &str) -> &str {
     name.split('.').next().unwrap_or(name)
 }
 
-/// The columns as variables, in their order; `contact[1].state` and `contact[2].state` are elements of one.
-fn grouped(columns: &[Column]) -> Vec<Array> {
+/// The columns as variables, in their order; `contact[1].state` and `contact[2].state` are elements of one, unless a parameter has
+/// the name without numbers.
+fn grouped(columns: &[Column], facts: &[Fact]) -> Vec<Array> {
     let mut arrays: Vec<Array> = Vec::new();
     for (position, column) in columns.iter().enumerate() {
-        let name = without_number(&column.name);
+        let base = without_number(&column.name);
+        let is_taken = facts.iter().any(|fact| fact.name == base);
+        let name = if is_taken { column.name.clone() } else { base };
         match arrays.iter_mut().rev().find(|array| array.name == name) {
             Some(array) => array.positions.push(position),
             None => arrays.push(Array {

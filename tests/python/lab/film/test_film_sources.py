@@ -17,7 +17,7 @@ import jostle
 from jostle_lab.errors import LabError
 from jostle_lab.film import command, film
 from jostle_lab.film.make import write_script
-from jostle_lab.film.sources import read, run_scene
+from jostle_lab.film.sources import dataset_of, read, run_scene
 
 SHORT = {"drive.amplitude": 1e-3, "drive.frequency": 20.0}
 
@@ -121,3 +121,14 @@ def test_the_page_holds_the_run_and_needs_no_network(tmp_path: Path) -> None:
         assert turned.max() < 1e-4
     assert numbers("shades", "u1").reshape(frames, 20).tolist() == script.colouring.shades.tolist()
     assert numbers("firsts", "<u4").tolist() == [0] * (frames + 1)
+
+
+def test_a_table_names_elements_as_the_package_does() -> None:
+    """Of the drive `random-supports` `support.angle` is a parameter and `support[1].angle` an output."""
+    run = jostle.Simulation("three_disk", drive="random-supports").run(0.02, every=0.01)
+    names = ["time", "support[1].angle", "support[2].angle", "support[1].x", "support[2].x"]
+    found = dataset_of(pl.DataFrame({name: [0.0, 0.01, 0.02] for name in names}), run.attrs)
+    assert set(found.data_vars) == {name for name in run.data_vars if name.endswith((".angle", ".x"))} - {
+        "disk.angle",
+        "disk.x",
+    }

@@ -37,7 +37,7 @@ def fmu(scene: str, fmi: int = 3) -> Path:
 
     """
     arguments.text("scene", scene, "jostle.scenes() lists what there is.")
-    if fmi not in (2, 3):
+    if fmi not in (2, 3) or not hasattr(fmi, "__index__"):  # 2.0 would be part of a file's name
         raise ParameterError.of("fmi", arguments.shown(fmi), "2 or 3", "Give the version that your importer reads.")
     folder = _there(HERE / "fmus", "the FMUs")
     known = sorted(path.name.removesuffix(".fmi3.fmu") for path in folder.glob("*.fmi3.fmu"))

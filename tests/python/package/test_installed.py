@@ -31,7 +31,9 @@ def test_fmus_are_there(scene: str, fmi: int) -> None:
     assert description.modelName.startswith(scene)
 
 
-@pytest.mark.parametrize(("scene", "fmi", "text"), [("sandpile", 3, "one of: packing"), ("packing", 1, "2 or 3")])
+@pytest.mark.parametrize(
+    ("scene", "fmi", "text"), [("sandpile", 3, "one of: packing"), ("packing", 1, "2 or 3"), ("packing", 2.0, "2 or 3")]
+)
 def test_what_is_not_there_is_told(scene: str, fmi: int, text: str) -> None:
     with pytest.raises(jostle.ParameterError, match=text):
         jostle.fmu(scene, fmi)

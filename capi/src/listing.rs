@@ -123,13 +123,12 @@ pub unsafe extern "C" fn jostle_variable(
 }
 
 fn describe(row: &Variable, [name, unit, description, options]: [*const c_char; 4]) -> JostleVariable {
-    let (kind, min, max) = match &row.kind {
-        scene::Kind::Real(quantity) => (JostleKind::Real, quantity.min, quantity.max),
-        scene::Kind::Integer { range, .. } | scene::Kind::Long { range, .. } => {
-            (JostleKind::Integer, *range.start() as f64, *range.end() as f64)
-        }
-        scene::Kind::Enumeration { options, .. } => (JostleKind::Enumeration, 1.0, options.len() as f64),
+    let kind = match &row.kind {
+        scene::Kind::Real(_) => JostleKind::Real,
+        scene::Kind::Integer { .. } | scene::Kind::Long { .. } => JostleKind::Integer,
+        scene::Kind::Enumeration { .. } => JostleKind::Enumeration,
     };
+    let [min, max] = row.kind.bounds();
     JostleVariable {
         name,
         unit,

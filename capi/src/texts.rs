@@ -3,7 +3,7 @@
 use std::ffi::{CString, c_char};
 
 use jostle::Error;
-use jostle::scene::{Kind, Variable};
+use jostle::scene::Variable;
 
 /// The texts of all variables of a simulation.
 pub struct VariableTexts {
@@ -15,14 +15,8 @@ impl VariableTexts {
         // No text of a scene holds a zero byte.
         let text = |text: &str| CString::new(text.replace('\0', "")).unwrap_or_default();
         let texts = rows.iter().map(|row| {
-            let (unit, options) = match &row.kind {
-                Kind::Real(quantity) => (quantity.unit.name, String::new()),
-                Kind::Enumeration { options, .. } => {
-                    let names: Vec<_> = options.iter().map(|(name, _)| *name).collect();
-                    ("1", names.join(","))
-                }
-                Kind::Integer { .. } | Kind::Long { .. } => ("1", String::new()),
-            };
+            let options = row.kind.options().collect::<Vec<_>>().join(",");
+            let unit = row.kind.unit().name;
             [text(&row.name), text(unit), text(&row.description), text(&options)]
         });
         Self { texts: texts.collect() }

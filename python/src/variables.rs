@@ -38,16 +38,8 @@ pub type Row = (
 
 /// A variable as a tuple.
 pub fn row(variable: &Variable) -> Row {
-    let (kind, unit, min, max, options) = match &variable.kind {
-        Kind::Real(quantity) => ("real", quantity.unit.name, quantity.min, quantity.max, vec![]),
-        Kind::Integer { range, .. } | Kind::Long { range, .. } => {
-            ("integer", "1", *range.start() as f64, *range.end() as f64, vec![])
-        }
-        Kind::Enumeration { options, .. } => {
-            let names: Vec<&str> = options.iter().map(|(name, _)| *name).collect();
-            ("option", "1", 1.0, names.len() as f64, names)
-        }
-    };
+    let kind = &variable.kind;
+    let [min, max] = kind.bounds();
     let start = if variable.causality.is_settable() {
         variable.start().to_f64()
     } else {
@@ -57,12 +49,12 @@ pub fn row(variable: &Variable) -> Row {
     (
         variable.name.clone(),
         variable.causality.word(),
-        kind,
-        unit,
+        kind.word(),
+        kind.unit().name,
         min,
         max,
         start,
-        options,
+        kind.options().collect(),
         variable.description.clone(),
         recommended.map_or_else(String::new, Recommended::text),
         recommended.map_or("", |recommended| recommended.reason),

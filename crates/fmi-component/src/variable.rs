@@ -71,6 +71,43 @@ pub enum Kind {
     },
 }
 
+impl Kind {
+    /// One word for tables.
+    pub const fn word(&self) -> &'static str {
+        match self {
+            Self::Real(_) => "real",
+            Self::Integer { .. } | Self::Long { .. } => "integer",
+            Self::Enumeration { .. } => "option",
+        }
+    }
+
+    /// Unit of its numbers.
+    pub const fn unit(&self) -> Unit {
+        match self {
+            Self::Real(quantity) => quantity.unit,
+            _ => Unit::ONE,
+        }
+    }
+
+    /// Smallest and largest allowed value; infinite for none. Whole numbers beyond 2^53 are rounded.
+    pub fn bounds(&self) -> [f64; 2] {
+        match self {
+            Self::Real(quantity) => [quantity.min, quantity.max],
+            Self::Integer { range, .. } | Self::Long { range, .. } => [*range.start() as f64, *range.end() as f64],
+            Self::Enumeration { options, .. } => [1.0, options.len() as f64],
+        }
+    }
+
+    /// Names of the options, none unless it is an enumeration; the first has the number 1.
+    pub fn options(&self) -> impl Iterator<Item = &'static str> + use<> {
+        let options = match *self {
+            Self::Enumeration { options, .. } => options,
+            _ => &[],
+        };
+        options.iter().map(|(name, _)| *name)
+    }
+}
+
 /// Unit, range and start of a real variable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {

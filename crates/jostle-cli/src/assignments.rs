@@ -1,6 +1,6 @@
 //! `--set name=value`: text in, checked values of a simulation out.
 
-use jostle::scene::{DynSimulation, Kind, Variable};
+use jostle::scene::DynSimulation;
 use jostle::{Error, Result};
 
 use crate::nearest::did_you_mean;
@@ -56,17 +56,8 @@ fn assign_one(simulation: &mut dyn DynSimulation, name: &str, text: &str) -> Res
     }
     let value = variable
         .parse(text)
-        .map_err(|error| did_you_mean(error, options(variable)))?;
+        .map_err(|error| did_you_mean(error, variable.kind.options()))?;
     simulation.set_at(position, value)
-}
-
-/// Names of the options of an enumeration.
-fn options(variable: &Variable) -> impl Iterator<Item = &str> {
-    let options = match variable.kind {
-        Kind::Enumeration { options, .. } => options,
-        _ => &[],
-    };
-    options.iter().map(|(name, _)| *name)
 }
 
 #[cfg(test)]

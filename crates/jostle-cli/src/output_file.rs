@@ -111,15 +111,7 @@ pub fn check_csv(option: &str, path: &Path) -> Result<(), Error> {
 /// # Errors
 /// Another ending, or none: importers go by it.
 pub fn check_fmu(option: &str, path: &Path) -> Result<(), Error> {
-    match ending(path) == "fmu" {
-        true => Ok(()),
-        false => Err(refused(
-            option,
-            path,
-            "fmu",
-            "that of a file that ends in .fmu, by which importers know an FMU",
-        )),
-    }
+    check_ending(option, path, &["fmu"], "by which importers know an FMU")
 }
 
 /// Whether the name stands for standard output.
@@ -183,15 +175,17 @@ pub fn beside(path: &Path, ending_of_new: &str) -> PathBuf {
 /// # Errors
 /// Another ending, or none: browsers go by it.
 pub fn check_html(option: &str, path: &Path) -> Result<(), Error> {
-    match matches!(ending(path).as_str(), "html" | "htm") {
-        true => Ok(()),
-        false => Err(refused(
-            option,
-            path,
-            "html",
-            "that of a file that ends in .html, by which browsers know a page",
-        )),
+    check_ending(option, path, &["html", "htm"], "by which browsers know a page")
+}
+
+/// Refuses a name with none of these endings; the first is proposed.
+fn check_ending(option: &str, path: &Path, endings: &[&str], why: &str) -> Result<(), Error> {
+    if endings.contains(&ending(path).as_str()) {
+        return Ok(());
     }
+    let proposed = endings[0];
+    let what = format!("that of a file that ends in .{proposed}, {why}");
+    Err(refused(option, path, proposed, &what))
 }
 
 fn ending(path: &Path) -> String {

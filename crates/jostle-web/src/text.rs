@@ -1,7 +1,7 @@
 //! What the page is told, as lines of fields with tabs between them.
 
+use jostle::scene::Value;
 use jostle::scene::catalogue::Names;
-use jostle::scene::{Kind, Value};
 use jostle::{Error, Result};
 
 use crate::shown::{SCENES, Shown};
@@ -38,31 +38,19 @@ pub fn scenes() -> String {
 pub fn variables(simulation: &dyn Shown) -> Result<String> {
     let mut text = String::new();
     for (position, variable) in simulation.table().variables().iter().enumerate() {
-        let (kind, unit, min, max, options) = match &variable.kind {
-            Kind::Real(quantity) => ("real", quantity.unit.name, quantity.min, quantity.max, String::new()),
-            Kind::Integer { range, .. } | Kind::Long { range, .. } => (
-                "integer",
-                "1",
-                *range.start() as f64,
-                *range.end() as f64,
-                String::new(),
-            ),
-            Kind::Enumeration { options, .. } => {
-                let names: Vec<&str> = options.iter().map(|(name, _)| *name).collect();
-                ("option", "1", 1.0, names.len() as f64, names.join(","))
-            }
-        };
+        let kind = &variable.kind;
+        let options = kind.options().collect::<Vec<_>>().join(",");
         let value = simulation.value(position)?.to_string();
-        let fields = [min, max].map(|number| Value::Real(number).to_string());
+        let [min, max] = kind.bounds().map(|number| Value::Real(number).to_string());
         line(
             &mut text,
             &[
                 &variable.name,
                 variable.causality.word(),
-                kind,
-                unit,
-                &fields[0],
-                &fields[1],
+                kind.word(),
+                kind.unit().name,
+                &min,
+                &max,
                 &variable.start().to_string(),
                 &value,
                 &options,

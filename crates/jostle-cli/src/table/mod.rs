@@ -67,14 +67,14 @@ impl Column {
 
     /// The column of a variable.
     pub fn of(variable: &Variable) -> Self {
-        let (unit, content) = match &variable.kind {
-            Kind::Real(quantity) => (quantity.unit.name, Content::Real),
-            Kind::Long { .. } => (Unit::ONE.name, Content::Long),
-            Kind::Integer { .. } | Kind::Enumeration { .. } => (Unit::ONE.name, Content::Integer),
+        let content = match &variable.kind {
+            Kind::Real(_) => Content::Real,
+            Kind::Long { .. } => Content::Long,
+            Kind::Integer { .. } | Kind::Enumeration { .. } => Content::Integer,
         };
         Self {
             name: variable.name.clone(),
-            unit,
+            unit: variable.kind.unit().name,
             description: variable.description.clone(),
             content,
         }

@@ -10,6 +10,7 @@ COMMANDS = (
     "tools.importers.command:importers",
     "tools.peers:peers",
     "tools.release.command:binaries",
+    "tools.release.command:bundle_release",
     "tools.release.command:verify",
     "tools.notices:notices",
     "tools.film_frames:film_frames",

@@ -121,25 +121,35 @@ def scenes() -> dict[str, tuple[str, str, str]]:
     return found
 
 
-def release_rows(folder: Path, native: Path) -> list[Row]:
-    """Bundles an FMU of each version for every library in `folder`, with those of all systems.
+def bundle(folder: Path, program: Path) -> list[tuple[str, list[Path]]]:
+    """Have `program` write an FMU of each version for every library of this machine in `folder`.
 
-    Returns sizes and needs under Linux, beside those of a plain build in `native`. Raises LabError if something asks
-    for more than it may.
+    The FMUs hold the libraries of all systems. Returns the name of each library, such as `jostle_wedge_map`, and its
+    two FMUs in `folder/fmu`. Raises LabError if one is not written.
     """
-    rows = []
-    own = folder / HOST
+    made = []
     out = folder / "fmu"
     out.mkdir(exist_ok=True)
     for identifier, (scene, engine, drive) in scenes().items():
-        library = own / f"lib{identifier}.so"
-        if not library.is_file():  # --only
+        if not (folder / HOST / f"lib{identifier}.so").is_file():  # --only
             continue
         files = [out / f"{scene}-{engine}-{drive}.fmi{version}.fmu" for version in (2, 3)]
         for version, file in zip((2, 3), files, strict=True):
             options = ["--engine", engine, "--drive", drive, "--fmi", str(version), "--out", str(file)]
-            output_of([own / "jostle", "fmu", scene, *options, "--libraries", folder])
-        row = _row(title(identifier), library, native)
+            output_of([program, "fmu", scene, *options, "--libraries", folder])
+        made.append((identifier, files))
+    return made
+
+
+def release_rows(folder: Path, native: Path) -> list[Row]:
+    """Bundles all FMUs of a release; their sizes and needs under Linux, beside those of a plain build in `native`.
+
+    Raises LabError if something asks for more than it may.
+    """
+    rows = []
+    own = folder / HOST
+    for identifier, files in bundle(folder, own / "jostle"):
+        row = _row(title(identifier), own / f"lib{identifier}.so", native)
         row["fmi2_bytes"], row["fmi3_bytes"] = (str(_size_for_this_system(file)) for file in files)
         row["variables"] = str(len(read_model_description(str(files[1])).modelVariables))
         rows.append(row)

@@ -9,7 +9,7 @@ from jostle_lab.errors import LabError
 from jostle_lab.tables import write_table
 from tools.paths import BUILD, TARGET
 from tools.release import page, systems
-from tools.release.binaries import COLUMNS, release_rows, strangers, tools, unknown
+from tools.release.binaries import COLUMNS, bundle, release_rows, strangers, tools, unknown
 from tools.release.verify import verify as verify_release
 
 Folder = Annotated[Path, typer.Argument(help="Folder that scripts/release made.")]
@@ -43,6 +43,14 @@ def binaries(
         write_table(data / "systems.csv", others, systems.COLUMNS)
         write_table(data / "tools.csv", tools())
         data.with_suffix(".md").write_text(page.page(data))
+
+
+def bundle_release(
+    folder: Folder,
+    program: Annotated[Path, typer.Argument(help="The program jostle that writes them.")],
+) -> None:
+    """Write the FMUs of all libraries in a folder, and measure nothing."""
+    bundle(folder, program)
 
 
 def verify(

@@ -14,7 +14,9 @@ from conftest import ROOT
 HERE = Path(__file__).resolve().parent
 RELEASE = Path(os.environ.get("JOSTLE_RELEASE", ROOT / "build" / "release"))
 """What `scripts/release` built."""
-PROBES = RELEASE.with_name("release-probe")
+PROBES = RELEASE.with_name(f"{RELEASE.name}-probe")
+IS_TRIAL = RELEASE.name == "trial"
+"""Whether `scripts/release --trial` built it: the libraries of this machine are then those of a plain build."""
 ARM_LIBC = Path("/usr/aarch64-linux-gnu")
 HEADERS = Path(fmpy.__path__[0]) / "c-code"
 ZIG = [sys.executable, "-m", "ziglang", "cc"]

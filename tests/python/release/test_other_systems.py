@@ -122,12 +122,14 @@ def all_scenes(system: System) -> str:
     return system.output(system.compiled(HERE / "all_scenes.c", f"-I{RELEASE / 'include'}", *options))
 
 
+@pytest.mark.skipif(IS_TRIAL, reason="without optimisation all scenes take minutes")
 def test_every_scene_of_the_c_library_has_the_same_bits(linux: System, other: System) -> None:
     expected = all_scenes(linux)
     assert len(expected.splitlines()) >= 17
     assert all_scenes(other).splitlines() == expected.splitlines()
 
 
+@pytest.mark.skipif(IS_TRIAL, reason="it has no C library")
 def test_the_example_in_c_runs(each: System) -> None:
     """Its sine is that of the system's C library, so that the angle may differ after two seconds."""
     program = system_program(each, ROOT / "capi" / "examples" / "shaken_packing.c")

@@ -185,7 +185,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Ends initialisation: freezes the parameters and builds the model.
+    /// Ends initialisation: freezes the parameters that are not tunable and builds the model.
     ///
     /// # Errors
     /// Wrong phase, or the model refuses the parameters. They may then be set anew.

@@ -65,4 +65,4 @@ pub use table::Table;
 pub use unit::Unit;
 pub use value::Value;
 pub use values::Values;
-pub use variable::{Causality, Kind, Quantity, TIME, TerminalMember, Variable};
+pub use variable::{Causality, Kind, Quantity, TIME, TerminalMember, Variability, Variable};

@@ -30,7 +30,7 @@ pub struct Warning {
 
 /// A model that can be stepped, observed, saved and restored.
 ///
-/// Contract: the parameters are frozen in [`Model::new`]. [`Model::advance_to`] either reaches `end_time` or leaves the state
+/// Contract: the parameters are frozen in [`Model::new`], but for tunable ones, which change in [`Model::tune`] alone. [`Model::advance_to`] either reaches `end_time` or leaves the state
 /// as it was. Reading an output changes nothing. Equal states with equal inputs give equal bits.
 pub trait Model: Sized + Send + 'static {
     /// Everything that changes with time and that an output is computed from.
@@ -59,6 +59,18 @@ pub trait Model: Sized + Send + 'static {
     /// # Errors
     /// A parameter that the model cannot work with, by name.
     fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self>;
+
+    /// Takes over the tunable parameters among `values` at the present time. Called before a step if one of them has changed since the
+    /// last step, and before [`Model::restore`] if the state was saved under others; never if no row is [`Row::tunable`].
+    ///
+    /// What the model keeps of the tunable parameters outside of [`Model::State`] must depend on their present values alone, not on those
+    /// before; whatever else changes must be part of the state. The same values once more change nothing.
+    ///
+    /// # Errors
+    /// Values that do not go together, by the name of a parameter. The model is then as before the call.
+    fn tune(&mut self, _values: &Values) -> Result<()> {
+        panic!("a model with tunable parameters says in `Model::tune` how it takes them over")
+    }
 
     /// Advances to `end_time` \[s\] under the inputs among `values`.
     ///
@@ -107,7 +119,7 @@ pub trait Model: Sized + Send + 'static {
     /// Time of `state` \[s\]: the end of the last step, or the start.
     fn time_of(state: &Self::State) -> f64;
 
-    /// Goes to a state of this same model with these same parameters.
+    /// Goes to a state of this same model with these same parameters; the tunable ones are those of the state.
     ///
     /// # Errors
     /// The state belongs to another model, structure or parameter set, or is damaged. The state is then as before.

@@ -159,7 +159,7 @@ impl<M> Row<M> {
         Self::make(name, description, Causality::Output, kind, Some(Read::Real(read)))
     }
 
-    /// A real that is known when initialisation ends and stays.
+    /// A real that is known when initialisation ends and stays, unless a tunable parameter that it depends on changes.
     pub fn calculated(
         name: impl Into<String>,
         unit: Unit,
@@ -230,7 +230,15 @@ impl<M> Row<M> {
         })
     }
 
-    /// The same output as a calculated parameter: known when initialisation ends, constant from then on.
+    /// The same parameter, which may change between steps too: see [`Model::tune`](crate::Model::tune).
+    #[must_use]
+    pub fn tunable(mut self) -> Self {
+        self.variable.tunable = true;
+        self
+    }
+
+    /// The same output as a calculated parameter: known when initialisation ends, constant from then on unless a tunable
+    /// parameter that it depends on changes.
     #[must_use]
     pub fn constant(mut self) -> Self {
         self.variable.causality = Causality::CalculatedParameter;
@@ -303,6 +311,7 @@ impl<M> Row<M> {
             description: description.into(),
             causality,
             kind,
+            tunable: false,
             dependencies: None,
             derivative: None,
             terminal: None,

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, Result};
 
 const MAGIC: [u8; 8] = *b"FMICOMPT";
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// Bytes of `value`, written for `owner`.
 ///

@@ -8,6 +8,7 @@ mod lists;
 mod outside;
 mod refusal;
 mod saving;
+mod tuning;
 
 use std::sync::Arc;
 
@@ -23,6 +24,7 @@ use crate::values::Values;
 use crate::variable::{Causality, Variable};
 use refusal::{name_what_was_set, named};
 pub use saving::Saved;
+use tuning::Tuned;
 
 /// One run of a model.
 #[derive(Debug)]
@@ -39,7 +41,11 @@ pub struct Simulation<M> {
     model: Option<M>,
     /// What [`Simulation::limit_work`] asked for.
     most_work: Option<u64>,
-    /// Parameters of the model outside of their recommended ranges: they are frozen with it.
+    /// Tunable parameters of the model.
+    tuned: Tuned,
+    /// A tunable parameter may have been set to another value than the model has.
+    retuned: bool,
+    /// Parameters of the model outside of their recommended ranges.
     outside: Vec<Warning>,
 }
 
@@ -71,6 +77,8 @@ impl<M: Model> Simulation<M> {
             time: 0.0,
             model: None,
             most_work: None,
+            tuned: Tuned::default(),
+            retuned: false,
             outside: Vec::new(),
         }
     }
@@ -82,7 +90,8 @@ impl<M: Model> Simulation<M> {
     pub fn start(&mut self, time: f64) -> Result<()> {
         check_start(time)?;
         self.model = Some(self.build(time, &self.values)?);
-        self.outside = outside::warnings(&self.values);
+        (self.tuned, self.retuned) = (Tuned::of(&self.values), false);
+        self.judge_parameters();
         (self.start, self.time) = (time, time);
         Ok(())
     }
@@ -121,10 +130,11 @@ impl<M: Model> Simulation<M> {
         self.model.is_some()
     }
 
-    /// Sets an input, or a parameter before the start. An input holds until it is set again.
+    /// Sets an input, a parameter before the start, or a tunable parameter. An input holds until it is set again; the model takes a
+    /// tunable parameter over at the beginning of the next step.
     ///
     /// # Errors
-    /// No such parameter or input, a parameter after the start, another type, or out of range.
+    /// No such parameter or input, a parameter that is not tunable after the start, another type, or out of range.
     pub fn set(&mut self, name: &str, value: impl Into<Value>) -> Result<()> {
         self.set_at(self.position(name)?, value)
     }
@@ -135,15 +145,19 @@ impl<M: Model> Simulation<M> {
     /// As [`Simulation::set`].
     pub fn set_at(&mut self, position: usize, value: impl Into<Value>) -> Result<()> {
         let variable = self.table().variables().get(position);
-        if let Some(variable) = variable.filter(|variable| variable.causality == Causality::Parameter)
-            && self.is_started()
-        {
-            return Err(Error::call(
+        let started = variable.filter(|variable| variable.causality == Causality::Parameter && self.is_started());
+        match started {
+            Some(variable) if !variable.tunable => Err(Error::call(
                 format!("{} is a parameter, frozen since the start", variable.name),
                 "Give it when the simulation is made.",
-            ));
+            )),
+            parameter => {
+                let tunes = parameter.is_some();
+                self.values.set(position, value.into())?;
+                self.retuned |= tunes;
+                Ok(())
+            }
         }
-        self.values.set(position, value.into())
     }
 
     /// Position of the variable called `name`: the same for as long as the simulation lives.
@@ -173,8 +187,7 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// As [`Simulation::advance_to`].
     pub fn advance_by(&mut self, end_time: f64, step: impl FnOnce(&mut M, &Values) -> Result<()>) -> Result<()> {
-        let (model, values) = self.model_for_step(end_time)?;
-        step(model, values)?;
+        self.step(end_time, step)?;
         self.time = end_time;
         Ok(())
     }
@@ -184,8 +197,7 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// As [`Simulation::advance_to`].
     pub fn advance_to_event(&mut self, end_time: f64) -> Result<Reached> {
-        let (model, values) = self.model_for_step(end_time)?;
-        let reached = model.advance_to_event(end_time, values)?;
+        let reached = self.step(end_time, |model, values| model.advance_to_event(end_time, values))?;
         Ok(self.arrive(reached, end_time))
     }
 
@@ -194,13 +206,12 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// As [`Simulation::advance_to`].
     pub fn resume_to_event(&mut self, end_time: f64) -> Result<Reached> {
-        let (model, values) = self.model_for_step(end_time)?;
-        let reached = model.resume_to_event(end_time, values)?;
+        let reached = self.step(end_time, |model, values| model.resume_to_event(end_time, values))?;
         Ok(self.arrive(reached, end_time))
     }
 
-    /// The model and the inputs for a step to `end_time`, if that is one forward in time.
-    fn model_for_step(&mut self, end_time: f64) -> Result<(&mut M, &Values)> {
+    /// Does a `step` to `end_time`, if that is one forward in time.
+    fn step<T>(&mut self, end_time: f64, step: impl FnOnce(&mut M, &Values) -> Result<T>) -> Result<T> {
         check_time("end of the step", end_time)?;
         if end_time <= self.time {
             return Err(Error::parameter(
@@ -214,8 +225,8 @@ impl<M: Model> Simulation<M> {
             ));
         }
         match &mut self.model {
-            Some(model) => Ok((model, &self.values)),
-            None => Err(not_started("advance")),
+            Some(model) if !self.retuned => step(model, &self.values),
+            _ => self.tune_and(step),
         }
     }
 
@@ -327,14 +338,13 @@ impl<M: Model> Simulation<M> {
     }
 
     /// What is doubtful about the run so far, but for the topics that were `told` before; nothing before the start. Parameters
-    /// outside of their recommended ranges come first, all of them under one topic.
+    /// outside of their recommended ranges come first, those of the start under one topic.
     pub fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
         let Some(model) = &self.model else { return Vec::new() };
-        let of_model = model.warnings(told);
-        match self.outside.first().filter(|warning| !told.contains(&warning.topic)) {
-            None => of_model,
-            Some(_) => [self.outside.clone(), of_model].concat(),
-        }
+        let untold = |warning: &&Warning| !told.contains(&warning.topic);
+        let mut warnings: Vec<_> = self.outside.iter().filter(untold).cloned().collect();
+        warnings.extend(model.warnings(told));
+        warnings
     }
 
     /// All values as of now, in the order of the variables.

@@ -3,13 +3,15 @@
 use std::collections::HashMap;
 
 use crate::error::{Error, Result};
-use crate::variable::{Causality, Variable};
+use crate::variable::{Causality, Kind, Variability, Variable};
 
 /// The variables of a model. Made once per component, shared and never changed.
 pub struct Table {
     variables: Vec<Variable>,
     /// Parameters and inputs, which come first.
     settable: usize,
+    /// Positions of the tunable parameters.
+    tunable: Vec<usize>,
     by_name: HashMap<String, usize>,
     /// Position of the derivative of the variable at each position.
     derivatives: HashMap<usize, usize>,
@@ -30,8 +32,8 @@ impl Table {
     /// Indexes the variables.
     ///
     /// # Errors
-    /// Two variables of one name, a computed one before a parameter or input, or a derivative that does not exist or has
-    /// another causality.
+    /// Two variables of one name, a computed one before a parameter or input, a tunable one that is no parameter, or a derivative
+    /// that does not exist or has another causality.
     pub fn try_new(variables: Vec<Variable>) -> Result<Self> {
         let defect = |what: String| Err(Error::call(what, "Mend the variables of the model."));
         let mut by_name = HashMap::with_capacity(variables.len());
@@ -46,6 +48,12 @@ impl Table {
             let what = format!("{} comes after a variable that the model computes", late.name);
             return defect(what);
         }
+        if let Some(other) =
+            (variables.iter()).find(|variable| variable.tunable && variable.causality != Causality::Parameter)
+        {
+            return defect(format!("{} is tunable, but no parameter", other.name));
+        }
+        let tunable = (0..settable).filter(|position| variables[*position].tunable).collect();
         let mut derivatives = HashMap::new();
         for (position, variable) in variables.iter().enumerate() {
             let Some(name) = &variable.derivative else { continue };
@@ -61,6 +69,7 @@ impl Table {
         Ok(Self {
             variables,
             settable,
+            tunable,
             by_name,
             derivatives,
         })
@@ -74,6 +83,38 @@ impl Table {
     /// Parameters and inputs, which come first.
     pub fn settable(&self) -> &[Variable] {
         &self.variables[..self.settable]
+    }
+
+    /// Positions of the tunable parameters.
+    pub fn tunable(&self) -> &[usize] {
+        &self.tunable
+    }
+
+    /// When the value of the variable at `position` may change. A calculated parameter is tunable if it may depend on a tunable one.
+    ///
+    /// # Panics
+    /// There is no variable at `position`.
+    pub fn variability(&self, position: usize) -> Variability {
+        let variable = &self.variables[position];
+        let tunable = match (variable.causality, &variable.dependencies) {
+            (Causality::Parameter, _) => variable.tunable,
+            (Causality::CalculatedParameter, None) => !self.tunable.is_empty(),
+            (Causality::CalculatedParameter, Some(names)) => {
+                let named = |position: &usize| names.contains(&self.variables[*position].name.as_str());
+                self.tunable.iter().any(named)
+            }
+            (Causality::Input | Causality::Output, _) => {
+                return match variable.kind {
+                    Kind::Real(_) => Variability::Continuous,
+                    _ => Variability::Discrete,
+                };
+            }
+        };
+        if tunable {
+            Variability::Tunable
+        } else {
+            Variability::Fixed
+        }
     }
 
     /// Position of the variable called `name`.

@@ -97,15 +97,33 @@ impl Values {
             .try_for_each(|(variable, value)| variable.check(*value))
     }
 
-    /// Whether all parameters are the same, as they would be stored.
-    pub fn same_parameters(&self, others: &[Value]) -> bool {
+    /// Whether all parameters but the tunable ones are the same, as they would be stored.
+    pub fn same_fixed_parameters(&self, others: &[Value]) -> bool {
         let pairs = self.values.iter().zip(others);
         self.table
             .settable()
             .iter()
             .zip(pairs)
-            .filter(|(variable, _)| variable.causality == Causality::Parameter)
+            .filter(|(variable, _)| variable.causality == Causality::Parameter && !variable.tunable)
             .all(|(_, (one, other))| one == other)
+    }
+
+    /// Values of the tunable parameters, in the order of [`Table::tunable`].
+    pub fn tunable(&self) -> Vec<Value> {
+        self.table
+            .tunable()
+            .iter()
+            .map(|position| self.values[*position])
+            .collect()
+    }
+
+    /// The same values but for the tunable parameters.
+    pub(crate) fn with_tunable(&self, tunable: &[Value]) -> Self {
+        let mut values = self.clone();
+        for (position, value) in self.table.tunable().iter().zip(tunable) {
+            values.values[*position] = stored(*value);
+        }
+        values
     }
 
     /// The real called `name`. A name that the model does not list is a defect of the model and panics.

@@ -14,9 +14,9 @@ pub const TIME: &str = "time";
 /// Who sets a variable, and when (FMI 2.0 section 2.2.7, FMI 3.0 section 2.4.7.4).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Causality {
-    /// Set by the user before initialisation ends, frozen from then on.
+    /// Set by the user before initialisation ends, frozen from then on unless it is [tunable](Variable::tunable).
     Parameter,
-    /// Computed from the parameters when initialisation ends, constant from then on.
+    /// Computed from the parameters when initialisation ends, constant from then on unless a tunable parameter changes.
     CalculatedParameter,
     /// Set by the importer at every communication point.
     Input,
@@ -37,6 +37,31 @@ impl Causality {
             Self::CalculatedParameter => "calculated",
             Self::Input => "input",
             Self::Output => "output",
+        }
+    }
+}
+
+/// When the value of a variable may change (FMI 2.0 section 2.2.7, FMI 3.0 section 2.4.7.4): see [`Table::variability`](crate::Table::variability).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variability {
+    /// Never, once initialisation has ended.
+    Fixed,
+    /// Between steps, when the importer sets a tunable parameter.
+    Tunable,
+    /// At events or between steps.
+    Discrete,
+    /// At any time.
+    Continuous,
+}
+
+impl Variability {
+    /// The word of both standards.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Fixed => "fixed",
+            Self::Tunable => "tunable",
+            Self::Discrete => "discrete",
+            Self::Continuous => "continuous",
         }
     }
 }
@@ -143,6 +168,9 @@ pub struct Variable {
     pub causality: Causality,
     /// What it holds.
     pub kind: Kind,
+    /// A parameter that may change between steps too: the model takes it over at the beginning of the next step
+    /// ([`Model::tune`](crate::Model::tune)).
+    pub tunable: bool,
     /// Parameters, inputs and [`TIME`] that a computed variable depends on while the component is initialised. `None` says that
     /// it may depend on all of them.
     pub dependencies: Option<Arc<[&'static str]>>,
@@ -155,6 +183,14 @@ pub struct Variable {
 }
 
 impl Variable {
+    /// Causality as one or two words for tables: that of a tunable parameter says so.
+    pub const fn role(&self) -> &'static str {
+        match self.tunable {
+            true => "tunable parameter",
+            false => self.causality.word(),
+        }
+    }
+
     /// Start value as the table stores it.
     pub fn start(&self) -> Value {
         match &self.kind {
@@ -263,8 +299,8 @@ impl Variable {
     }
 }
 
-/// Distinguishes a table of variables from any other: FNV-1a, 64 bits, over the model's version, names, causalities, types, units, ranges
-/// and start values.
+/// Distinguishes a table of variables from any other: FNV-1a, 64 bits, over the model's version, names, causalities, types, units, ranges,
+/// start values and what is tunable.
 pub fn fingerprint<'a>(version: &str, variables: impl IntoIterator<Item = &'a Variable>) -> u64 {
     let mut text = String::from(version);
     for variable in variables {
@@ -272,6 +308,9 @@ pub fn fingerprint<'a>(version: &str, variables: impl IntoIterator<Item = &'a Va
             "\n{} {:?} {:?}",
             variable.name, variable.causality, variable.kind
         ));
+        if variable.tunable {
+            text.push_str(" tunable");
+        }
     }
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)

@@ -50,7 +50,7 @@ fn a_model_sees_no_negative_zero() {
         .collect();
     let mut values = row.values().clone();
     values.put_back(&negative).unwrap();
-    assert!(values.same_parameters(&negative));
+    assert!(values.same_fixed_parameters(&negative));
     assert_eq!(values.real("frame.velocity").to_bits(), 0);
     for variable in row
         .variables()
@@ -255,6 +255,66 @@ fn a_table_with_an_input_after_an_output_panics() {
 fn a_table_with_a_derivative_of_another_causality_panics() {
     let rate = Row::input("v", Unit::ONE, 1.0, "");
     Table::new([rate, output("x").with_derivative("v")].map(variable).into());
+}
+
+#[test]
+#[should_panic(expected = "x is tunable, but no parameter")]
+fn a_table_with_a_tunable_output_panics() {
+    Table::new([output("x").tunable()].map(variable).into());
+}
+
+#[test]
+fn a_table_knows_when_values_may_change() {
+    use fmi_component::Variability::{Continuous, Discrete, Fixed, Tunable};
+    let parameter = |name: &str| Row::<()>::parameter(name, Unit::ONE, 0.0..=1.0, 0.5, "");
+    let calculated = |name: &str| output(name).constant();
+    let depending = |name: &str, on: &'static str| calculated(name).depending_on(&[on].into());
+    let rows = vec![
+        parameter("a"),
+        parameter("b").tunable(),
+        Row::input("u", Unit::ONE, 1.0, ""),
+        calculated("of_all"),
+        depending("of_a", "a"),
+        depending("of_b", "b"),
+        output("x"),
+        Row::count_output("n", "", |()| 0),
+    ];
+    let table = Table::new(rows.into_iter().map(variable).collect());
+    let all: Vec<_> = (0..8).map(|position| table.variability(position)).collect();
+    assert_eq!(
+        all,
+        [
+            Fixed, Tunable, Continuous, Tunable, Fixed, Tunable, Continuous, Discrete
+        ]
+    );
+    assert_eq!(table.tunable(), [1]);
+    let fixed = Table::new([parameter("a"), calculated("of_all")].map(variable).into());
+    assert_eq!(fixed.variability(1), Fixed);
+}
+
+#[test]
+fn what_is_tunable_is_a_part_of_the_fingerprint() {
+    let row = || Row::<()>::parameter("a", Unit::ONE, 0.0..=1.0, 0.5, "");
+    let fingerprint = |row: Row<()>| fmi_component::variable::fingerprint("1", &[row.variable]);
+    assert_ne!(fingerprint(row()), fingerprint(row().tunable()));
+}
+
+#[test]
+fn a_tunable_parameter_is_set_between_steps_of_a_program() {
+    let mut row = bodies(2);
+    row.advance_to(0.1).unwrap();
+    let before = row.save();
+    row.set("spring.stiffness", 400.0).unwrap();
+    assert_eq!(row.real("spring.stiffness"), Ok(400.0));
+    row.advance_to(0.2).unwrap();
+    let after = row.save();
+    row.restore(&before).unwrap();
+    assert_eq!((row.real("spring.stiffness"), row.save()), (Ok(100.0), before));
+    row.advance_to(0.2).unwrap();
+    assert_ne!(row.save(), after);
+    row.stop();
+    row.restore(&after).unwrap();
+    assert_eq!((row.real("spring.stiffness"), row.save()), (Ok(400.0), after));
 }
 
 #[test]

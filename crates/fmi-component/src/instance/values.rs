@@ -274,6 +274,7 @@ impl Instance {
         let running = inside || matches!(self.phase, Phase::Event | Phase::Step);
         match variable.causality {
             Causality::Parameter if before => Ok(()),
+            Causality::Parameter if variable.tunable && matches!(self.phase, Phase::Event | Phase::Step) => Ok(()),
             Causality::Input if before || running => Ok(()),
             _ => Err(not_settable(variable, self.phase)),
         }
@@ -338,6 +339,9 @@ fn not_known(variable: &Variable) -> Error {
 #[cold]
 fn not_settable(variable: &Variable, phase: Phase) -> Error {
     let remedy = match variable.causality {
+        Causality::Parameter if variable.tunable => {
+            "Tunable parameters may be set between steps until the simulation is terminated."
+        }
         Causality::Parameter => "Parameters are frozen when initialization ends: reset, then set it.",
         Causality::Input => "Inputs may be set until the simulation is terminated.",
         Causality::Output | Causality::CalculatedParameter => "The model computes it: read it only.",

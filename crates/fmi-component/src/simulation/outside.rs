@@ -5,11 +5,26 @@ use crate::value::Value;
 use crate::values::Values;
 use crate::variable::Causality;
 
-/// Topic of these warnings: parameters are frozen, so that all of them are known at once.
+/// Topic of these warnings at the start, where all of them are known at once. Of a parameter that goes outside later the reason is the
+/// topic, so that each is told once.
 const TOPIC: &str = "recommended range";
 
 /// A warning for each parameter outside of its recommended range.
 pub fn warnings(values: &Values) -> Vec<Warning> {
+    let mut warnings = by_reason(values);
+    warnings.iter_mut().for_each(|warning| warning.topic = TOPIC);
+    warnings
+}
+
+/// A warning for each parameter that is outside with the values of `now` and is not told of, with these same words, by those of the start.
+pub fn since(start: &Values, now: &Values) -> Vec<Warning> {
+    let told = by_reason(start);
+    let mut warnings = by_reason(now);
+    warnings.retain(|warning| !told.contains(warning));
+    warnings
+}
+
+fn by_reason(values: &Values) -> Vec<Warning> {
     let table = values.table();
     let real = |name: &str| match table.position(name).and_then(|position| values.get(position)) {
         Some(Value::Real(real)) => real,
@@ -23,7 +38,11 @@ pub fn warnings(values: &Values) -> Vec<Warning> {
     let texts = parameters.filter_map(|variable| {
         let value = values.get(table.position(&variable.name)?)?;
         let recommended = variable.recommended.as_ref()?;
-        recommended.warning(&variable.name, &variable.text(value), &real)
+        let text = recommended.warning(&variable.name, &variable.text(value), &real)?;
+        Some(Warning {
+            topic: recommended.reason,
+            text,
+        })
     });
-    texts.map(|text| Warning { topic: TOPIC, text }).collect()
+    texts.collect()
 }

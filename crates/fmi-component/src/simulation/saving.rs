@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Simulation, outside};
+use super::Simulation;
+use super::tuning::Tuned;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::saved_bytes;
@@ -17,6 +18,7 @@ pub struct Saved<State> {
     start: f64,
     time: f64,
     values: Vec<Value>,
+    tuned: Tuned,
     state: Option<State>,
 }
 
@@ -34,33 +36,41 @@ impl<M: Model> Simulation<M> {
             start: self.start,
             time: self.time,
             values: self.values.as_slice().to_vec(),
+            tuned: match self.is_started() {
+                true => self.tuned.clone(),
+                false => Tuned::default(),
+            },
             state: self.model.as_ref().map(M::state),
         }
     }
 
-    /// Goes back (or on) to a saved state and restores its parameters.
+    /// Goes back (or on) to a saved state and restores its parameters, those included that were set and wait for the next step.
     ///
     /// # Errors
     /// The state does not fit this model or its structure, or is damaged. The simulation is then as before.
     pub fn restore(&mut self, saved: &Saved<M::State>) -> Result<()> {
         self.check(saved)?;
-        let same = self.start == saved.start && self.values.same_parameters(&saved.values);
-        let anew = saved.state.is_some() && !(same && self.model.is_some());
+        let same = self.start == saved.start
+            && self.values.same_fixed_parameters(&saved.values)
+            && self.tuned.is_of_the_same_start(&saved.tuned);
+        let known = same && self.is_started() && self.tuned == saved.tuned;
         match (&saved.state, self.model.as_mut().filter(|_| same)) {
             (None, _) => self.model = None,
-            (Some(state), Some(model)) => model.restore(state)?,
+            (Some(state), Some(model)) => {
+                Self::restore_tuned(model, state, &self.values, (&self.tuned, &saved.tuned))?;
+            }
             (Some(state), None) => {
                 let mut values = self.values.clone();
                 values.put_back(&saved.values)?;
-                let mut model = self.build(saved.start, &values)?;
-                model.restore(state)?;
-                self.model = Some(model);
+                self.model = Some(self.build_tuned(saved.start, state, &values, &saved.tuned)?);
             }
         }
         self.values.put_back(&saved.values)?;
-        if anew {
-            self.outside = outside::warnings(&self.values);
+        if saved.is_started() && !known {
+            self.tuned.clone_from(&saved.tuned);
+            self.judge_parameters();
         }
+        self.retuned = self.is_retuned();
         (self.start, self.time) = (saved.start, saved.time);
         Ok(())
     }
@@ -80,6 +90,7 @@ impl<M: Model> Simulation<M> {
     /// They cannot.
     pub fn check(&self, saved: &Saved<M::State>) -> Result<()> {
         self.values.check_all(&saved.values)?;
+        saved.tuned.check(&self.values, saved.is_started())?;
         let Saved { start, time, state, .. } = saved;
         if !(is_simulated(*start) && is_simulated(*time) && time >= start) {
             return Err(Error::state(

@@ -13,3 +13,4 @@ mod listener;
 mod many;
 mod state_table;
 mod states;
+mod tunable;

@@ -75,7 +75,7 @@ fn set_rate(client: &Client) -> Status {
 type Call = fn(&Client) -> Status;
 
 /// Each call with the phases in which it is legal, one letter each: instantiated, initialization, event, step, terminated.
-const BOTH: [(&str, Call, &str); 9] = [
+const BOTH: [(&str, Call, &str); 10] = [
     ("enter initialization", enter, "I...."),
     ("exit initialization", |client| client.exit(), ".N..."),
     ("step", |client| client.step(0.0, 0.01), "...S."),
@@ -83,6 +83,11 @@ const BOTH: [(&str, Call, &str); 9] = [
     ("get a parameter", |client| client.get("body.mass").0, "INEST"),
     ("get an output", |client| client.get("frame.reaction_force").0, ".NEST"),
     ("set a parameter", |client| client.set("body.mass", 0.2), "IN..."),
+    (
+        "set a tunable parameter",
+        |client| client.set("spring.stiffness", 200.0),
+        "INES.",
+    ),
     ("set an input", |client| client.set("frame.velocity", 0.2), "INES."),
     ("save", save, "INEST"),
 ];
@@ -124,7 +129,14 @@ fn check((name, call, legal): (&str, Call, &str), three: bool) {
             let explained = ["phase", "not computed yet", "was not asked for"]
                 .iter()
                 .any(|word| message.contains(word));
-            let expected = ["legal in: ", "first", "reset", "Inputs may", "Instantiate with"];
+            let expected = [
+                "legal in: ",
+                "first",
+                "reset",
+                "Inputs may",
+                "between steps",
+                "Instantiate with",
+            ];
             assert!(
                 explained && expected.iter().any(|word| message.contains(word)),
                 "{name}, {phase}: {message}"

@@ -1,5 +1,6 @@
 //! Oscillators on a moving frame: a model as small as can be that has a variable of each kind, an event (body 1 passes height
-//! zero), a structural parameter for the number of bodies, and that can be set to refuse a step or to panic. The tests use it.
+//! zero), a structural parameter for the number of bodies, tunable parameters (spring and damper), and that can be set to refuse a
+//! step or to panic. The tests use it.
 //!
 //! x'' = -(k / m) (x - frame) - (c / m) (v - frame') - g, semi-implicit Euler on the fixed grid start + n time step.
 #![allow(unsafe_code)] // the exported C functions; each is checked in `fmi_component::c_api`
@@ -9,6 +10,7 @@ use fmi_component::{
     Symbol, Unit, Values, Warning,
 };
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 fmi_component::export_fmu!(crate::Oscillators);
 
@@ -44,7 +46,6 @@ pub struct Oscillators {
     panic_time: f64,
     refuse_time: f64,
     most_steps: u64,
-    warnings: Vec<Warning>,
     state: State,
 }
 
@@ -98,7 +99,8 @@ impl Model for Oscillators {
                 10.0,
                 "Natural angular frequency.",
                 |model: &Self| (model.stiffness / model.mass).sqrt(),
-            ),
+            )
+            .depending_on(&Arc::from(["spring.stiffness", "body.mass"])),
             Row::output(
                 "frame.reaction_force",
                 Unit::NEWTON,
@@ -124,16 +126,8 @@ impl Model for Oscillators {
     }
 
     fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
-        let (stiffness, damping) = (values.real("spring.stiffness"), values.real("damper.damping"));
         let mass = values.real("body.mass");
-        if damping * TIME_STEP > mass {
-            return Err(Error::parameter(
-                "damper.damping",
-                damping,
-                format!("at most {}", mass / TIME_STEP),
-                "Lower it or raise body.mass.",
-            ));
-        }
+        let [stiffness, damping] = stiffness_and_damping(values)?;
         let bodies = structure.get("bodies") as usize;
         let mut state = State {
             time: start_time,
@@ -148,15 +142,7 @@ impl Model for Oscillators {
                 *velocity = draw(&mut state.random);
             }
         }
-        let undamped = "damper.damping = 0: the bodies never come to rest. Set it above 0 if they should.";
         Ok(Self {
-            warnings: (damping == 0.0)
-                .then(|| Warning {
-                    topic: "damper.damping",
-                    text: undamped.into(),
-                })
-                .into_iter()
-                .collect(),
             start: start_time,
             stiffness,
             mass,
@@ -166,6 +152,11 @@ impl Model for Oscillators {
             most_steps: MOST_STEPS,
             state,
         })
+    }
+
+    fn tune(&mut self, values: &Values) -> Result<()> {
+        [self.stiffness, self.damping] = stiffness_and_damping(values)?;
+        Ok(())
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
@@ -201,8 +192,14 @@ impl Model for Oscillators {
     }
 
     fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
-        let new = |warning: &&Warning| !told.contains(&warning.topic);
-        self.warnings.iter().filter(new).cloned().collect()
+        let topic = "damper.damping";
+        let doubtful = self.damping == 0.0 && !told.contains(&topic);
+        let text = "damper.damping = 0: the bodies never come to rest. Set it above 0 if they should.";
+        let warning = || Warning {
+            topic,
+            text: text.into(),
+        };
+        doubtful.then(warning).into_iter().collect()
     }
 
     fn state(&self) -> State {
@@ -233,7 +230,8 @@ fn parameters() -> Vec<Row<Oscillators>> {
             1.0..=1e6,
             100.0,
             "Stiffness of all springs.",
-        ),
+        )
+        .tunable(),
         Row::parameter(
             "body.mass",
             Unit::KILOGRAM,
@@ -248,6 +246,7 @@ fn parameters() -> Vec<Row<Oscillators>> {
             0.2,
             "Damping of all springs.",
         )
+        .tunable()
         .recommended_by(
             Derived {
                 name: "damping ratio",
@@ -274,6 +273,24 @@ fn parameters() -> Vec<Row<Oscillators>> {
             "Refuses steps beyond this.",
         ),
     ]
+}
+
+/// The tunable parameters, if the mass is not too small for them.
+fn stiffness_and_damping(values: &Values) -> Result<[f64; 2]> {
+    let (stiffness, damping, mass) = (
+        values.real("spring.stiffness"),
+        values.real("damper.damping"),
+        values.real("body.mass"),
+    );
+    if damping * TIME_STEP > mass {
+        return Err(Error::parameter(
+            "damper.damping",
+            damping,
+            format!("at most {}", mass / TIME_STEP),
+            "Lower it or raise body.mass.",
+        ));
+    }
+    Ok([stiffness, damping])
 }
 
 /// The latest grid point that a step to `end_time` reaches.

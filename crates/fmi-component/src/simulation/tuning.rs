@@ -1,0 +1,143 @@
+//! Tunable parameters of a simulation: what was set between steps reaches the model at the beginning of the next step.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Simulation, outside};
+use crate::error::{Error, Result};
+use crate::model::Model;
+use crate::value::Value;
+use crate::values::Values;
+
+/// What a model knows of the tunable parameters, in the order of [`Table::tunable`](crate::Table::tunable); empty before the start.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tuned {
+    /// Values that the model was built with.
+    at_start: Vec<Value>,
+    /// Values that it has now. A parameter that was set since the last step has another one among the [`Values`].
+    now: Vec<Value>,
+}
+
+impl Tuned {
+    /// Those of a model that was built from `values`.
+    pub fn of(values: &Values) -> Self {
+        let at_start = values.tunable();
+        Self {
+            now: at_start.clone(),
+            at_start,
+        }
+    }
+
+    /// Whether a model that was built with one can be brought to the other.
+    pub fn is_of_the_same_start(&self, other: &Self) -> bool {
+        self.at_start == other.at_start
+    }
+
+    /// Says whether these can be the tunable parameters of a model that has `started`, of which `values` are any.
+    ///
+    /// # Errors
+    /// Another number of them, of another type, or out of range.
+    pub fn check(&self, values: &Values, started: bool) -> Result<()> {
+        let table = values.table();
+        let count = if started { table.tunable().len() } else { 0 };
+        for tunable in [&self.at_start, &self.now] {
+            if tunable.len() != count {
+                return Err(Error::state(
+                    format!("it holds {} tunable parameters, {count} were expected", tunable.len()),
+                    "Save and restore with the same model.",
+                ));
+            }
+            for (position, value) in table.tunable().iter().zip(tunable) {
+                table.variables()[*position].check(*value)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<M: Model> Simulation<M> {
+    /// Does `step` after the model has taken over the tunable parameters as they stand.
+    ///
+    /// # Errors
+    /// Those of the step or of [`Model::tune`]. The model is then as before.
+    #[cold]
+    pub(super) fn tune_and<T>(&mut self, step: impl FnOnce(&mut M, &Values) -> Result<T>) -> Result<T> {
+        let Some(model) = &mut self.model else {
+            return Err(super::not_started("advance"));
+        };
+        let wanted = self.values.tunable();
+        if wanted == self.tuned.now {
+            self.retuned = false;
+            return step(model, &self.values);
+        }
+        let before = model.state();
+        model
+            .tune(&self.values)
+            .map_err(|error| super::name_what_was_set(error, &self.values))?;
+        let done = step(model, &self.values);
+        if done.is_err() {
+            go_back(model, &self.values.with_tunable(&self.tuned.now), &before);
+            return done;
+        }
+        self.tuned.now = wanted;
+        self.retuned = false;
+        self.judge_parameters();
+        done
+    }
+
+    /// Brings the model of this simulation to a `state` that was saved with the tunable parameters of `tuned`.
+    ///
+    /// # Errors
+    /// The state does not fit. The model is then as before.
+    pub(super) fn restore_tuned(
+        model: &mut M,
+        state: &M::State,
+        values: &Values,
+        (own, tuned): (&Tuned, &Tuned),
+    ) -> Result<()> {
+        if own.now == tuned.now {
+            return model.restore(state);
+        }
+        let before = model.state();
+        model.tune(&values.with_tunable(&tuned.now))?;
+        model
+            .restore(state)
+            .inspect_err(|_| go_back(model, &values.with_tunable(&own.now), &before))
+    }
+
+    /// A model of `values` in a `state` that was saved with the tunable parameters of `tuned`.
+    ///
+    /// # Errors
+    /// The values or the state do not fit.
+    pub(super) fn build_tuned(&self, start: f64, state: &M::State, values: &Values, tuned: &Tuned) -> Result<M> {
+        let mut model = self.build(start, &values.with_tunable(&tuned.at_start))?;
+        let as_built = Tuned {
+            at_start: tuned.at_start.clone(),
+            now: tuned.at_start.clone(),
+        };
+        Self::restore_tuned(&mut model, state, values, (&as_built, tuned))?;
+        Ok(model)
+    }
+
+    /// Notes which parameters of the model are outside of their recommended ranges.
+    pub(super) fn judge_parameters(&mut self) {
+        let at_start = self.values.with_tunable(&self.tuned.at_start);
+        self.outside = outside::warnings(&at_start);
+        if self.tuned.now != self.tuned.at_start {
+            let now = self.values.with_tunable(&self.tuned.now);
+            self.outside.extend(outside::since(&at_start, &now));
+        }
+    }
+
+    /// Whether a tunable parameter was set to another value than the model has.
+    pub(super) fn is_retuned(&self) -> bool {
+        self.is_started() && self.values.tunable() != self.tuned.now
+    }
+}
+
+/// Undoes a change of tunable parameters: `values` and `state` are those before it.
+fn go_back<M: Model>(model: &mut M, values: &Values, state: &M::State) {
+    let undone = model.tune(values).and_then(|()| model.restore(state));
+    if let Err(error) = undone {
+        panic!("the model does not go back to the tunable parameters that it had: {error}");
+    }
+}

@@ -22,33 +22,51 @@ pub fn variables(component: &Component) -> String {
         }
         let settable = causality.is_settable();
         // What nobody has said anything of is no column.
-        let recommends = groups.iter().any(|group| group.variable.recommended.is_some());
+        let shown = Shown {
+            settable,
+            tunes: groups.iter().any(|group| group.variable.tunable),
+            recommends: groups.iter().any(|group| group.variable.recommended.is_some()),
+        };
         let columns = [
             ("Name", true),
             ("Unit", true),
             ("Start", settable),
             ("Description", true),
             ("Range", settable),
-            ("Recommended", recommends),
+            ("Changes while running", shown.tunes),
+            ("Recommended", shown.recommends),
             ("Value reference", true),
         ];
         let head: String = columns
             .iter()
-            .filter(|(_, shown)| *shown)
+            .filter(|(_, is_shown)| *is_shown)
             .map(|(name, _)| format!("<th>{name}</th>"))
             .collect();
         text.push_str(&format!(
             "<h3 id=\"{id}\">{title}</h3>\n<div class=\"wide\"><table>\n<tr>{head}</tr>\n"
         ));
         for group in &groups {
-            text.push_str(&row(component, group, settable, recommends));
+            text.push_str(&row(component, group, shown));
         }
         text.push_str("</table></div>\n");
     }
     text
 }
 
-fn row(component: &Component, group: &Group, settable: bool, recommends: bool) -> String {
+/// Columns that not every table has.
+#[derive(Clone, Copy)]
+struct Shown {
+    settable: bool,
+    tunes: bool,
+    recommends: bool,
+}
+
+fn row(component: &Component, group: &Group, shown: Shown) -> String {
+    let Shown {
+        settable,
+        tunes,
+        recommends,
+    } = shown;
     let variable = group.variable;
     let mut cells = format!(
         "<td><code>{}</code></td><td>{}</td>",
@@ -62,6 +80,10 @@ fn row(component: &Component, group: &Group, settable: bool, recommends: bool) -
     cells.push_str(&format!("<td class=\"text\">{}</td>", escape(description.as_str())));
     if settable {
         cells.push_str(&format!("<td class=\"range\">{}</td>", range(variable)));
+    }
+    if tunes {
+        let answer = if variable.tunable { "between steps" } else { "" };
+        cells.push_str(&format!("<td>{answer}</td>"));
     }
     if recommends {
         let recommended = variable.recommended.as_ref();

@@ -36,7 +36,10 @@ fn write_variable(xml: &mut Xml, layout: &Layout<'_>, position: usize) -> io::Re
         ("valueReference", value_reference(position).to_string()),
         ("description", description),
         ("causality", causality(variable.causality).into()),
-        ("variability", variability(variable).into()),
+        (
+            "variability",
+            layout.component.table().variability(position).word().into(),
+        ),
     ];
     let inside = layout.component.model().input_parts > 0 && variable.causality == Causality::Input;
     if inside && layout.version == Version::Three {
@@ -102,14 +105,6 @@ fn causality(causality: Causality) -> &'static str {
         Causality::CalculatedParameter => "calculatedParameter",
         Causality::Input => "input",
         Causality::Output => "output",
-    }
-}
-
-fn variability(variable: &Variable) -> &'static str {
-    match (variable.causality, &variable.kind) {
-        (Causality::Parameter | Causality::CalculatedParameter, _) => "fixed",
-        (_, Kind::Real(_)) => "continuous",
-        _ => "discrete",
     }
 }
 

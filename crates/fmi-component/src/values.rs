@@ -117,6 +117,14 @@ impl Values {
             .collect()
     }
 
+    /// Other values of the same variables, as many.
+    pub(crate) fn with_all(&self, others: &[Value]) -> Self {
+        Self {
+            table: Arc::clone(&self.table),
+            values: others.iter().copied().map(stored).collect(),
+        }
+    }
+
     /// The same values but for the tunable parameters.
     pub(crate) fn with_tunable(&self, tunable: &[Value]) -> Self {
         let mut values = self.clone();

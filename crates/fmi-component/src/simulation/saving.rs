@@ -50,18 +50,15 @@ impl<M: Model> Simulation<M> {
     /// The state does not fit this model or its structure, or is damaged. The simulation is then as before.
     pub fn restore(&mut self, saved: &Saved<M::State>) -> Result<()> {
         self.check(saved)?;
-        let same = self.start == saved.start
-            && self.values.same_fixed_parameters(&saved.values)
-            && self.tuned.is_of_the_same_start(&saved.tuned);
-        let known = same && self.is_started() && self.tuned == saved.tuned;
+        let same = self.is_started() && self.start == saved.start && self.tuned.is_of_the_same_start(&saved.tuned);
+        let known = same && self.tuned == saved.tuned;
         match (&saved.state, self.model.as_mut().filter(|_| same)) {
             (None, _) => self.model = None,
             (Some(state), Some(model)) => {
                 Self::restore_tuned(model, state, &self.values, (&self.tuned, &saved.tuned))?;
             }
             (Some(state), None) => {
-                let mut values = self.values.clone();
-                values.put_back(&saved.values)?;
+                let values = self.values.with_all(&saved.values);
                 self.model = Some(self.build_tuned(saved.start, state, &values, &saved.tuned)?);
             }
         }
@@ -90,7 +87,9 @@ impl<M: Model> Simulation<M> {
     /// They cannot.
     pub fn check(&self, saved: &Saved<M::State>) -> Result<()> {
         self.values.check_all(&saved.values)?;
-        saved.tuned.check(&self.values, saved.is_started())?;
+        saved
+            .tuned
+            .check(&self.values.with_all(&saved.values), saved.is_started())?;
         let Saved { start, time, state, .. } = saved;
         if !(is_simulated(*start) && is_simulated(*time) && time >= start) {
             return Err(Error::state(

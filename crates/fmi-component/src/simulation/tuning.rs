@@ -8,49 +8,52 @@ use crate::model::Model;
 use crate::value::Value;
 use crate::values::Values;
 
-/// What a model knows of the tunable parameters, in the order of [`Table::tunable`](crate::Table::tunable); empty before the start.
+/// What a model was built from, and what it knows of the tunable parameters; empty before the start.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tuned {
-    /// Values that the model was built with.
+    /// All parameters and inputs that the model was built from.
     at_start: Vec<Value>,
-    /// Values that it has now. A parameter that was set since the last step has another one among the [`Values`].
+    /// Tunable parameters that it has now, in the order of [`Table::tunable`](crate::Table::tunable). One that was set since the last
+    /// step has another value among the [`Values`].
     now: Vec<Value>,
 }
 
 impl Tuned {
     /// Those of a model that was built from `values`.
     pub fn of(values: &Values) -> Self {
-        let at_start = values.tunable();
         Self {
-            now: at_start.clone(),
-            at_start,
+            at_start: values.as_slice().to_vec(),
+            now: values.tunable(),
         }
     }
 
-    /// Whether a model that was built with one can be brought to the other.
+    /// Whether a model that was built from one is one that was built from the other.
     pub fn is_of_the_same_start(&self, other: &Self) -> bool {
         self.at_start == other.at_start
     }
 
-    /// Says whether these can be the tunable parameters of a model that has `started`, of which `values` are any.
+    /// Says whether these can be those of a model that has started, if it has, and has parameters and inputs `values` now.
     ///
     /// # Errors
-    /// Another number of them, of another type, or out of range.
+    /// Another number of values, of another type, out of range, or other fixed parameters.
     pub fn check(&self, values: &Values, started: bool) -> Result<()> {
-        let table = values.table();
-        let count = if started { table.tunable().len() } else { 0 };
-        for tunable in [&self.at_start, &self.now] {
-            if tunable.len() != count {
-                return Err(Error::state(
-                    format!("it holds {} tunable parameters, {count} were expected", tunable.len()),
-                    "Save and restore with the same model.",
-                ));
-            }
-            for (position, value) in table.tunable().iter().zip(tunable) {
-                table.variables()[*position].check(*value)?;
-            }
+        let damaged = |what: &str| Err(Error::state(what, "Pass a state that saving gave."));
+        if !started {
+            return match *self == Self::default() {
+                true => Ok(()),
+                false => damaged("it holds values of a model that has not started"),
+            };
         }
-        Ok(())
+        values.check_all(&self.at_start)?;
+        if !values.same_fixed_parameters(&self.at_start) {
+            return damaged("it started with other parameters");
+        }
+        let table = values.table();
+        if self.now.len() != table.tunable().len() {
+            return damaged("it holds another number of tunable parameters");
+        }
+        let mut pairs = table.tunable().iter().zip(&self.now);
+        pairs.try_for_each(|(position, value)| table.variables()[*position].check(*value))
     }
 }
 
@@ -109,20 +112,18 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// The values or the state do not fit.
     pub(super) fn build_tuned(&self, start: f64, state: &M::State, values: &Values, tuned: &Tuned) -> Result<M> {
-        let mut model = self.build(start, &values.with_tunable(&tuned.at_start))?;
-        let as_built = Tuned {
-            at_start: tuned.at_start.clone(),
-            now: tuned.at_start.clone(),
-        };
+        let at_start = values.with_all(&tuned.at_start);
+        let mut model = self.build(start, &at_start)?;
+        let as_built = Tuned::of(&at_start);
         Self::restore_tuned(&mut model, state, values, (&as_built, tuned))?;
         Ok(model)
     }
 
     /// Notes which parameters of the model are outside of their recommended ranges.
     pub(super) fn judge_parameters(&mut self) {
-        let at_start = self.values.with_tunable(&self.tuned.at_start);
+        let at_start = self.values.with_all(&self.tuned.at_start);
         self.outside = outside::warnings(&at_start);
-        if self.tuned.now != self.tuned.at_start {
+        if self.tuned.now != at_start.tunable() {
             let now = self.values.with_tunable(&self.tuned.now);
             self.outside.extend(outside::since(&at_start, &now));
         }

@@ -135,3 +135,26 @@ fn lists_without_elements_are_left_out() {
         "{text}"
     );
 }
+
+/// Calculated parameters are tunable if they may depend on a tunable one (FMI 2.0 section 2.2.7, FMI 3.0 section 2.4.7.4).
+#[test]
+fn tunable_parameters_and_what_is_calculated_from_them_say_so() {
+    let component = Component::new(&MODEL, &[]).unwrap();
+    for version in [Version::Two, Version::Three] {
+        let text = model_description::write(&component, version);
+        for (name, variability) in [
+            ("spring.stiffness", "tunable"),
+            ("damper.damping", "tunable"),
+            ("body.mass", "fixed"),
+            ("seed", "fixed"),
+            ("natural.angle_rate", "tunable"),
+            ("frame.position", "continuous"),
+            ("steps", "discrete"),
+        ] {
+            let begin = text.find(&format!("name=\"{name}\"")).unwrap();
+            let element = &text[begin..begin + text[begin..].find('>').unwrap()];
+            let expected = format!("variability=\"{variability}\"");
+            assert!(element.contains(&expected), "{version:?}: {element}");
+        }
+    }
+}

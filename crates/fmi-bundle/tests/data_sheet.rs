@@ -95,6 +95,7 @@ fn purpose_limits_symbols_and_recommended_ranges_are_there_and_what_is_empty_is_
     ] {
         assert!(full.contains(part), "{part}");
     }
+    assert!(full.contains("<th>Changes while running</th>") && full.contains("<td>between steps</td>"));
     assert!(full.contains("damping ratio: 0 to 1") && full.contains("1 &lt; c is no oscillator"));
     let plain = page(&plain(), Version::Three);
     for part in ["What it is for", "Symbols", "Without inputs", "Authors", "What is new"] {

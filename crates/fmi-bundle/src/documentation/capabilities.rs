@@ -7,7 +7,7 @@ use crate::component::Component;
 
 /// The part of the page.
 pub fn write(component: &Component, version: Version) -> String {
-    let mut list = vec![general(version), step(component), states(version).into()];
+    let mut list = vec![general(component, version), step(component), states(version).into()];
     list.push(derivatives(component, version));
     if version == Version::Three {
         list.push(events(component));
@@ -23,14 +23,20 @@ pub fn write(component: &Component, version: Version) -> String {
     format!("<ul>\n{items}</ul>\n")
 }
 
-fn general(version: Version) -> String {
+fn general(component: &Component, version: Version) -> String {
     let standard = match version {
         Version::Two => "FMI 2.0",
         Version::Three => "FMI 3.0",
     };
+    let tunable = match component.table().tunable() {
+        [] => "",
+        _ => {
+            ", but for those that may change between steps (variability <code>tunable</code>), of which the next step takes over what was set"
+        }
+    };
     format!(
         "<b>Kind.</b> Co-simulation for {standard}. The solver is inside; no tool and no file is needed to run it. Any number of \
-         instances in any number of threads, one call at a time for each. Parameters are frozen when initialisation ends. A \
+         instances in any number of threads, one call at a time for each. Parameters are frozen when initialisation ends{tunable}. A \
          value out of range is refused with its range."
     )
 }

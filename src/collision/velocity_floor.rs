@@ -26,6 +26,11 @@ impl<L> VelocityFloor<L> {
         let minimum = checked(name, minimum, f64::INFINITY, "0 has no floor.")?;
         Ok(Self { law, minimum })
     }
+
+    /// The law inside.
+    pub fn law(&self) -> &L {
+        &self.law
+    }
 }
 
 impl<L: CollisionLaw> CollisionLaw for VelocityFloor<L> {

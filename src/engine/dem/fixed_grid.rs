@@ -101,6 +101,10 @@ pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
         Ok(())
     }
 
+    /// Goes on from `state` with this friction coefficient and gravity \[m/s2\]. What springs hold beyond the new limit of friction is
+    /// lost.
+    fn tune<D: Drive>(&mut self, state: &mut GridState<D, Self::Disks>, friction: f64, gravity: f64);
+
     /// Positions (x, y, angle) and velocities of the disks.
     fn motion<'s>(&self, disks: &'s Self::Disks) -> (&'s [[f64; 3]], &'s [[f64; 3]]);
 
@@ -191,6 +195,19 @@ impl<S: Stepper, D: Drive> FixedGrid<S, D> {
     fn start_afresh(&mut self) {
         self.stepper.start(&mut self.state);
         self.is_between = false;
+    }
+
+    /// Changes friction coefficient and gravity \[m/s2\] at the present grid point. What is observed stays until the next
+    /// observation.
+    pub fn tune(&mut self, friction: f64, gravity: f64) {
+        self.stepper.tune(&mut self.state, friction, gravity);
+    }
+
+    /// Sum of mass times height of the disks \[kg.m\] at the present grid point: their energy in gravity over gravity.
+    pub fn height_moment(&self) -> f64 {
+        let (positions, _) = self.stepper.motion(&self.state.disks);
+        let disks = positions.iter().zip(&self.setup().masses);
+        disks.fold(0.0, |sum, (position, mass)| sum + mass * position[1])
     }
 
     /// The drive, to be given new inputs.

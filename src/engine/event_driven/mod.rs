@@ -18,6 +18,7 @@ mod sawtooth;
 mod shells;
 mod space;
 mod state;
+mod tuning;
 mod waiting;
 mod walls;
 

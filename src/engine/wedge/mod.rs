@@ -158,6 +158,24 @@ impl<L: CollisionLaw, B: BaseMotion> DiskInWedge<L, B> {
         self.predict();
     }
 
+    /// Collides by another law from now on.
+    pub fn set_law(&mut self, law: L) {
+        self.work_of_impact = law.most_work();
+        self.law = law;
+    }
+
+    /// Changes gravity \[m/s2\], above 0, at `time` \[s\], which must lie in the present flight.
+    pub fn set_gravity(&mut self, time: f64, gravity: f64) {
+        self.steer(time, |_| ());
+        self.setup.gravity = gravity;
+        self.predict();
+    }
+
+    /// The impact law.
+    pub fn law(&self) -> &L {
+        &self.law
+    }
+
     /// All that the future depends on.
     pub fn state(&self) -> &WedgeState<B> {
         &self.state

@@ -62,7 +62,7 @@ impl Laws {
 
     /// Of the `stretch` \[m\] of a spring what is left in this phase under a normal force \[N\]. The one that slips keeps its sign
     /// with the phase.
-    fn stretch_in(&self, phase: LocatedPhase, stretch: f64, normal_force: f64) -> f64 {
+    pub fn stretch_in(&self, phase: LocatedPhase, stretch: f64, normal_force: f64) -> f64 {
         match phase {
             LocatedPhase::Open | LocatedPhase::Unpressed => 0.0,
             LocatedPhase::Stick => stretch,

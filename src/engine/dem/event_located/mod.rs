@@ -19,6 +19,7 @@ mod neighbour_list;
 mod polynomial;
 mod state;
 mod step;
+mod tuning;
 
 use crate::contact::LinearDashpot;
 use crate::drive::{Drive, Motion};
@@ -116,6 +117,10 @@ impl Stepper for EventStepper {
         scratch.refine::<true>(&context, pairs, wall_contacts);
         self.scratch = scratch;
         self.commit(state, base, time)
+    }
+
+    fn tune<D: Drive>(&mut self, state: &mut GridState<D, Disks>, friction: f64, gravity: f64) {
+        self.retune(state, friction, gravity);
     }
 
     fn motion<'s>(&self, disks: &'s Disks) -> (&'s [[f64; 3]], &'s [[f64; 3]]) {

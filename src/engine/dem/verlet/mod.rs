@@ -11,6 +11,7 @@ mod integrator;
 mod moved_disks;
 mod neighbour_list;
 mod state;
+mod tuning;
 
 use std::marker::PhantomData;
 
@@ -139,6 +140,10 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
             }
             I::correct_and_predict(coordinates, &self.force, &self.inverse_mass, step);
         }
+    }
+
+    fn tune<D: Drive>(&mut self, state: &mut GridState<D, Disks>, friction: f64, gravity: f64) {
+        self.retune(state, friction, gravity);
     }
 
     fn motion<'s>(&self, disks: &'s Disks) -> (&'s [[f64; 3]], &'s [[f64; 3]]) {

@@ -1,0 +1,48 @@
+//! Changes of friction and gravity during a run, at a point of the grid of time.
+
+use crate::contact::NormalForce;
+use crate::drive::Drive;
+use crate::engine::dem::fixed_grid::GridState;
+
+use super::{Disks, Integrator, PredictorCorrector, SpringMemory};
+
+impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
+    /// From the state on with this friction coefficient and gravity \[m/s2\].
+    ///
+    /// The forces are those of the state under the new laws. A tangential spring that is stretched beyond the new limit of friction
+    /// slips at once, and what it held more is lost. Surfaces that begin to feel each other have unstretched springs.
+    pub(super) fn retune<D: Drive>(&mut self, state: &mut GridState<D, Disks>, friction: f64, gravity: f64) {
+        let setup = &mut self.constants.setup;
+        let acted = setup.laws.tangential.acts();
+        setup.laws.tangential.friction = friction;
+        setup.gravity = gravity;
+        for (weight, mass) in self.weight.as_chunks_mut::<3>().0.iter_mut().zip(&setup.masses) {
+            weight[1] = -mass * gravity;
+        }
+        let tangential = setup.laws.tangential;
+        if acted && !tangential.acts() {
+            let release = |spring: &mut SpringMemory| {
+                let energy = tangential.energy(spring.stretch);
+                *spring = SpringMemory::OPEN;
+                energy
+            };
+            let of_pairs: f64 = state.disks.pairs.iter_mut().map(|pair| release(&mut pair.spring)).sum();
+            let walls = state.disks.wall_contacts.iter_mut();
+            let of_walls: f64 = walls.map(|contact| release(&mut contact.spring)).sum();
+            state.energy_lost += of_pairs + of_walls;
+        }
+        if !acted && tangential.acts() {
+            // Without springs no contact remembers that it is closed: each closes now.
+            state.contacts = 0;
+        }
+        let sums = self.evaluate(state, 0.0);
+        self.carry_moved_disks(state, 0.0);
+        let accelerations = state.disks.acceleration.iter_mut();
+        for (acceleration, (force, inverse)) in accelerations.zip(self.force.iter().zip(&self.inverse_mass)) {
+            *acceleration = force * inverse;
+        }
+        state.energy_lost += sums.slip_heat;
+        state.disks.dissipated_power = sums.dissipated_power;
+        state.contacts = sums.contacts;
+    }
+}

@@ -87,19 +87,19 @@ impl AnySimulation {
         Ok(Self(simulation))
     }
 
-    /// Sets an input; it holds until it is set again.
+    /// Sets an input, which holds until it is set again, or a tunable parameter, which acts from the next step on.
     ///
     /// # Errors
-    /// No input of this name, or not a finite number.
+    /// No input or tunable parameter of this name, or a value out of range.
     pub fn set(&mut self, name: &str, value: impl Into<Value>) -> Result<()> {
         let position = self.position(name)?;
         self.set_at(position, value)
     }
 
-    /// Sets the input at `position`, as [`AnySimulation::position`] gave it.
+    /// [`AnySimulation::set`] at a `position`, as [`AnySimulation::position`] gave it.
     ///
     /// # Errors
-    /// No input there, or not a finite number.
+    /// As [`AnySimulation::set`].
     pub fn set_at(&mut self, position: usize, value: impl Into<Value>) -> Result<()> {
         self.0.set_at(position, value.into())
     }

@@ -134,7 +134,7 @@ pub trait HardDisksOnBase: DisksOnBase {
     fn inertia_factor(&self) -> f64;
     /// Sums since the start.
     fn counts(&self) -> Counts;
-    /// Total energy at the start \[J\].
+    /// Total energy at the start \[J\], with all that changes of gravity have added since.
     fn start_energy(&self) -> f64;
 
     /// Energies of the disks now.
@@ -154,6 +154,12 @@ pub trait HardDisksOnBase: DisksOnBase {
             energies.potential += mass * self.gravity() * position.y;
         }
         energies
+    }
+
+    /// Sum of mass times height of the disks \[kg.m\] now: their energy in gravity over gravity.
+    fn height_moment(&self) -> f64 {
+        let disks = self.masses().iter().enumerate();
+        disks.map(|(disk, mass)| mass * self.disk(disk).position.y).sum()
     }
 
     /// Whether disks, base and sums at `time` \[s\] are finite and far from overflow.

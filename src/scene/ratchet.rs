@@ -52,7 +52,7 @@ pub struct Ratchet<D: BoundedDrive> {
     /// Ceiling less the height of the teeth and the widest disk \[m\]: farther up the base would crush it.
     headroom: f64,
     work_limit: WorkLimit,
-    /// Total energy at the start \[J\].
+    /// Total energy at the start \[J\], with all that changes of gravity have added since.
     start_energy: f64,
     report: StepReport,
     averages: Averages,
@@ -67,7 +67,7 @@ pub struct RatchetState<B> {
     pub engine: EventDrivenState<B>,
     /// The last communication step.
     pub report: StepReport,
-    /// Total energy at the start \[J\]: it depends on where inputs had the base then.
+    /// Total energy at the start \[J\]: it depends on where inputs had the base then, and on changes of gravity since.
     pub start_energy: f64,
     /// Running averages.
     pub averages: Averages,
@@ -83,7 +83,8 @@ where
         &self.engine
     }
 
-    /// As [`Model::advance_to`], to the bit, and shows the flights of the disks to an observer.
+    /// As [`Model::advance_to`], to the bit, and shows the flights of the disks to an observer, from the last impact or change of
+    /// gravity on.
     ///
     /// # Errors
     /// As [`Model::advance_to`]; what was shown then does not count.
@@ -176,6 +177,15 @@ where
     }
 }
 
+/// The impact law that the parameters describe.
+fn law(values: &Values) -> Result<VelocityFloor<Coulomb>> {
+    let coulomb = Coulomb::new(values.real("collision.restitution"), values.real("collision.friction"))?;
+    Ok(VelocityFloor::new(
+        coulomb,
+        values.real("collision.minimum_normal_velocity"),
+    )?)
+}
+
 impl<D> Model for Ratchet<D>
 where
     D: BaseDrive + BoundedDrive,
@@ -210,10 +220,7 @@ where
     }
 
     fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
-        let law = VelocityFloor::new(
-            Coulomb::new(values.real("collision.restitution"), values.real("collision.friction"))?,
-            values.real("collision.minimum_normal_velocity"),
-        )?;
+        let law = law(values)?;
         let profile = start::profile(values)?;
         let base = <Moving<D> as HardBase>::from_values(start_time, values)?;
         let lift = base.motion(start_time).displacement;
@@ -266,6 +273,17 @@ where
         };
         ratchet.start_energy = ratchet.energies().total();
         Ok(ratchet)
+    }
+
+    fn tune(&mut self, values: &Values) -> Result<()> {
+        self.engine.set_law(law(values)?);
+        let gravity = values.real("gravity");
+        if gravity != self.gravity {
+            self.start_energy += (gravity - self.gravity) * self.height_moment();
+            self.engine.set_gravity(self.report.time, gravity, &mut Unobserved);
+            self.gravity = gravity;
+        }
+        Ok(())
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {

@@ -6,6 +6,8 @@ use crate::engine::dem::{Breakdown, TimeStepLimits};
 
 use super::{Error, Result, Row, Values, work_limit};
 
+const FRICTION: &str = "contact.friction";
+
 /// What the time step of one disk depends on besides its drive: its fastest mode, and the choice of the user.
 pub const STEP_OF_ONE_DISK: &[&str] = &[
     "disk.mass",
@@ -37,7 +39,7 @@ pub fn contact_laws<N: SceneNormalForce>(values: &Values) -> ContactLaws<N> {
     let normal = N::from_values(values);
     let tangential = TangentialSpring {
         stiffness: values.real("contact.stiffness_ratio") * values.real("contact.normal_stiffness"),
-        friction: values.real("contact.friction"),
+        friction: values.real(FRICTION),
     };
     ContactLaws { normal, tangential }
 }
@@ -59,6 +61,25 @@ pub fn chosen_time_step(values: &Values, limits: &TimeStepLimits) -> Result<f64>
         format!("{asked:e} s"),
         format!("at most {:e} s for these contacts, masses and drive", limits.largest),
         format!("Give a smaller step, or 0 for the default of {:e} s.", limits.default),
+    ))
+}
+
+/// Says whether contacts of another friction still allow the time step \[s\] that was chosen at the start.
+///
+/// # Errors
+/// They do not.
+pub fn check_tuned_time_step(values: &Values, limits: &TimeStepLimits, time_step: f64) -> Result<()> {
+    if time_step <= limits.largest {
+        return Ok(());
+    }
+    Err(Error::parameter(
+        FRICTION,
+        values.real(FRICTION),
+        format!(
+            "0 with the time step of {time_step:e} s that was chosen at the start: with friction the contacts allow at most {:e} s",
+            limits.largest
+        ),
+        "Start with a smaller time_step, or with friction.",
     ))
 }
 

@@ -302,6 +302,10 @@ impl<E: WedgeEngine> Model for Wedge<E> {
         Ok(scene)
     }
 
+    fn tune(&mut self, values: &Values) -> Result<()> {
+        self.engine.tune(self.report.time, values)
+    }
+
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
         self.advance_stretch(Stretch::Beginning, end_time, values)
     }

@@ -9,6 +9,7 @@ use crate::geometry::Disk;
 use crate::scene::{Error, Result, Row, Unit, Values, random_phase_base};
 
 use super::hard::{HardDisks, HardEngine};
+use super::hard_law::HardLaw;
 use super::initial_packing;
 
 /// Value of `base.model` for the fixed bottom with a random phase (P 2.3.3); the other is the moving bottom.
@@ -162,6 +163,14 @@ impl HardEngine for EitherBase {
 
     fn work_done(&self) -> u64 {
         either!(self, run => HardEngine::work_done(&**run))
+    }
+
+    fn set_law(&mut self, law: HardLaw) {
+        either!(self, run => HardEngine::set_law(&mut **run, law));
+    }
+
+    fn set_gravity(&mut self, time: f64, gravity: f64) {
+        either!(self, run => HardEngine::set_gravity(&mut **run, time, gravity));
     }
 
     fn set_target(&mut self, _time: f64, _duration: f64, _values: &Values) {}

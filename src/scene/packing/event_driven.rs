@@ -19,6 +19,7 @@ use super::PackingState;
 use super::either_base::EitherBase;
 use super::equations;
 use super::hard::{HardDisks, HardEngine};
+use super::hard_law::hard_law;
 use super::initial_packing::{self, NAME};
 use super::rotation::{MeasuresRotation, RotationRecord};
 use super::rows::{self, AtStart};
@@ -39,10 +40,11 @@ pub struct HardPacking<E: HardEngine> {
     backup: E::State,
     masses: Vec<f64>,
     radii: Vec<f64>,
+    friction: f64,
     gravity: f64,
     work_limit: WorkLimit,
     report: StepReport,
-    /// Total energy at the start \[J\].
+    /// Total energy at the start \[J\], with all that changes of gravity have added since.
     start_energy: f64,
     rotation: RotationRecord,
     /// What is doubtful about the start.
@@ -199,7 +201,8 @@ impl<E: HardEngine> Model for HardPacking<E> {
             nominal: 1e-3,
             potential: "Energy in gravity, zero at the height of the base at rest",
             lost: "Energy lost in the dashpots and by slip since the start",
-            residual: "Change of energy less work of the base plus losses: the integration's own error",
+            residual: "Change of energy less work of the base plus losses: the integration's own error. What a change of gravity adds \
+                       to the potential energy does not count",
             kinetic_at_start: &at_start.kinetic_energy,
             potential_at_start: &at_start.potential_energy,
         };
@@ -240,6 +243,7 @@ impl<E: HardEngine> Model for HardPacking<E> {
             engine,
             masses,
             radii: disks.iter().map(|disk| disk.radius).collect(),
+            friction: values.real("contact.friction"),
             gravity: values.real("gravity"),
             work_limit: WorkLimit::new(start_time, disks.len(), values),
             warnings,
@@ -249,6 +253,20 @@ impl<E: HardEngine> Model for HardPacking<E> {
         };
         packing.start_energy = packing.energies().total();
         Ok(packing)
+    }
+
+    fn tune(&mut self, values: &Values) -> Result<()> {
+        let (friction, gravity) = (values.real("contact.friction"), values.real("gravity"));
+        if friction != self.friction {
+            self.engine.set_law(hard_law(&self.masses, values)?);
+            self.friction = friction;
+        }
+        if gravity != self.gravity {
+            self.start_energy += (gravity - self.gravity) * self.height_moment();
+            self.engine.set_gravity(self.report.time, gravity);
+            self.gravity = gravity;
+        }
+        Ok(())
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {

@@ -44,6 +44,10 @@ pub trait HardEngine: Engine<Stop = EventDrivenStop> {
     }
     /// Work since the start, in units of [`WorkBudget`](crate::engine::WorkBudget).
     fn work_done(&self) -> u64;
+    /// Collides by another law from now on.
+    fn set_law(&mut self, law: HardLaw);
+    /// Changes gravity \[m/s2\] at `time` \[s\].
+    fn set_gravity(&mut self, time: f64, gravity: f64);
     /// Takes the inputs at `time` \[s\] for a step of `duration` \[s\].
     fn set_target(&mut self, time: f64, duration: f64, values: &Values);
     /// What is doubtful of the inputs so far.
@@ -130,6 +134,14 @@ impl<W: HardBase> HardEngine for HardDisks<W> {
             &vec![[0.0, up, 0.0]; disks.len()],
             settings,
         ))
+    }
+
+    fn set_law(&mut self, law: HardLaw) {
+        Self::set_law(self, law);
+    }
+
+    fn set_gravity(&mut self, time: f64, gravity: f64) {
+        Self::set_gravity(self, time, gravity, &mut Unobserved);
     }
 
     fn set_target(&mut self, time: f64, duration: f64, values: &Values) {

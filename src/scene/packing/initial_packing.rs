@@ -94,10 +94,14 @@ pub fn bottom_warning(bottom: &[HeldDisk], disks: usize) -> Option<Warning> {
 
 /// Mass of each disk \[kg\].
 pub fn masses(disks: &[Disk], values: &Values) -> Vec<f64> {
+    masses_of(disks.iter().map(|disk| disk.radius), values)
+}
+
+/// Mass of each disk of these radii \[kg\].
+pub fn masses_of(radii: impl Iterator<Item = f64>, values: &Values) -> Vec<f64> {
     let surface_density = values.real("disk.surface_density");
-    disks
-        .iter()
-        .map(|disk| surface_density * std::f64::consts::PI * powi(disk.radius, 2))
+    radii
+        .map(|radius| surface_density * std::f64::consts::PI * powi(radius, 2))
         .collect()
 }
 

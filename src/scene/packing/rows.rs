@@ -147,7 +147,7 @@ pub fn parameters<M>() -> Vec<Row<M>> {
         Row::parameter(name, Unit::METRE, 1e-6..=1e3, start, &description)
     };
     let mut rows = vec![
-        Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 0.0..=1e4, 9.8, GRAVITY),
+        Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 0.0..=1e4, 9.8, GRAVITY).tunable(),
         Row::long_parameter(
             "seed",
             0..=i64::MAX,
@@ -220,7 +220,8 @@ pub fn parameters<M>() -> Vec<Row<M>> {
             0.0..=1e6,
             0.1,
             "Friction coefficient mu of every contact",
-        )),
+        ))
+        .tunable(),
         work_limit::row(),
     ];
     rows.extend(rotation::parameters());

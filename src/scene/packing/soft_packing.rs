@@ -7,7 +7,7 @@ use crate::error::are_sane;
 use crate::geometry::Disk;
 use crate::scene::base_drive::{BaseDrive, TERMINAL};
 use crate::scene::disks_on_base::{DisksOnBase, StepReport, Stretch, complete, names, radii};
-use crate::scene::soft_disks::{SceneNormalForce, chosen_time_step, contact_laws, refused_step};
+use crate::scene::soft_disks::{SceneNormalForce, check_tuned_time_step, chosen_time_step, contact_laws, refused_step};
 use crate::scene::work_limit::WorkLimit;
 use crate::scene::{
     Error, Listing, Model, ModelInfo, Reached, Result, Row, SceneInfo, StructuralParameters, Unit, Values, Warning,
@@ -36,7 +36,8 @@ pub struct SoftPacking<S: SoftMethod, D> {
     limits: TimeStepLimits,
     work_limit: WorkLimit,
     report: StepReport,
-    /// Total energy at the start \[J\], which depends on where the inputs had the base; for the residual.
+    /// Total energy at the start \[J\], which depends on where the inputs had the base, with all that changes of gravity have added
+    /// since; for the residual.
     start_energy: f64,
     rotation: RotationRecord,
     /// What is doubtful about the start.
@@ -139,9 +140,12 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
         let choice = &["tolerance", "time_step"];
         let step = |name, nominal, what, read| Row::calculated(name, Unit::SECOND, nominal, what, read);
         [
-            step("chosen_time_step", 1e-5, "Time step in use", |packing: &Self| {
-                packing.engine.setup().time_step
-            })
+            step(
+                "chosen_time_step",
+                1e-5,
+                "Time step in use, chosen at the start",
+                |packing: &Self| packing.engine.setup().time_step,
+            )
             .depending_on(&names(&[
                 &rows::RADII,
                 STIFFEST,
@@ -210,7 +214,8 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
             ),
             energy(
                 "energy.residual",
-                "Change of energy less work of the base plus losses: the integration's own error",
+                "Change of energy less work of the base plus losses: the integration's own error. What a change of gravity adds to the \
+                 potential energy does not count",
                 |packing| {
                     let now = packing.engine.observables();
                     packing.energy() - packing.start_energy - now.energy_input + now.energy_lost
@@ -313,6 +318,23 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
             packing.move_with_base();
         }
         Ok(packing)
+    }
+
+    fn tune(&mut self, values: &Values) -> Result<()> {
+        let laws = contact_laws::<S::Normal>(values);
+        let gravity = values.real("gravity");
+        let setup = self.engine.setup();
+        if laws.tangential == setup.laws.tangential && gravity == setup.gravity {
+            return Ok(());
+        }
+        let masses = initial_packing::masses_of(self.engine.radii().iter().copied(), values);
+        let limits = S::limits(&laws, &masses, self.engine.state().drive.frequency(), values);
+        check_tuned_time_step(values, &limits, setup.time_step)?;
+        // The energy that disks gain or lose by this is not the work of anything.
+        self.start_energy += (gravity - setup.gravity) * self.engine.height_moment();
+        self.engine.tune(laws.tangential.friction, gravity);
+        self.limits = limits;
+        Ok(())
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {

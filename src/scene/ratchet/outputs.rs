@@ -121,7 +121,8 @@ where
             nominal: 1e-6,
             potential: "Energy in gravity, zero at the height of the valleys at rest",
             lost: "Energy lost in impacts since the start",
-            residual: "Change of energy less work of the base plus losses: rounding",
+            residual: "Change of energy less work of the base plus losses: rounding. What a change of gravity adds to the potential energy \
+                       does not count",
             kinetic_at_start: &names(&[]),
             potential_at_start: &names(&[ROWS_OF_DISKS, D::DISPLACEMENT_AT_START, WEIGHTS]),
         }

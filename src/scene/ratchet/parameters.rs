@@ -61,7 +61,7 @@ fn with_start_values_of_the_paper<M>(mut row: Row<M>) -> Row<M> {
 
 fn general<M>() -> Vec<Row<M>> {
     vec![
-        Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 1e-6..=1e4, 9.81, GRAVITY),
+        Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 1e-6..=1e4, 9.81, GRAVITY).tunable(),
         Row::long_parameter("seed", 0..=i64::MAX, 1, "Seed of the radii and the places at the start"),
         Row::parameter(
             "cell.height",
@@ -84,6 +84,7 @@ fn general<M>() -> Vec<Row<M>> {
             0.8,
             "Normal restitution of every impact",
         )
+        .tunable()
         // Above, a vibrated base heats disks without bound; below, clusters collapse and the floor of velocity decides the run.
         .recommended(
             0.3..=0.98,
@@ -96,7 +97,8 @@ fn general<M>() -> Vec<Row<M>> {
             0.0..=1e6,
             0.1,
             "Friction coefficient of every impact",
-        )),
+        ))
+        .tunable(),
         Row::parameter(
             "collision.minimum_normal_velocity",
             Unit::METRE_PER_SECOND,
@@ -104,6 +106,7 @@ fn general<M>() -> Vec<Row<M>> {
             5e-3,
             "No impact leaves slower than this along the normal: ends inelastic collapse",
         )
+        .tunable()
         // The base of F moves at 0.31 m/s. At 0.1 mm/s a disk at rest collides every 20 us.
         .recommended(
             1e-4..=0.03,

@@ -75,6 +75,12 @@ pub trait WedgeEngine: Engine {
     /// A parameter out of range, by name.
     fn from_values(start_time: f64, values: &Values) -> Result<Self>;
 
+    /// Takes over the tunable parameters at `time` \[s\].
+    ///
+    /// # Errors
+    /// Values that do not go together, by name. All is then as before.
+    fn tune(&mut self, time: f64, values: &Values) -> Result<()>;
+
     /// Takes the inputs at `time` \[s\] for a step of `duration` \[s\].
     fn set_target(&mut self, time: f64, duration: f64, values: &Values);
 

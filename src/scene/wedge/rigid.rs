@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-use crate::collision::{Dashpot, TabulatedDashpot, VelocityFloor};
+use crate::collision::{CollisionLaw, Dashpot, TabulatedDashpot, VelocityFloor};
 use crate::contact::LinearDashpot;
-use crate::drive::{AtRandomPhase, BaseProfile, FirstHit, Motion, RandomPhase, Sine};
+use crate::drive::{AtRandomPhase, BaseMotion, BaseProfile, FirstHit, Motion, RandomPhase, Sine};
 use crate::engine::DiskMotion;
 use crate::engine::wedge::{DiskInWedge, NO_PROGRESS, Side, Start, Stuck, WedgeSetup, WedgeStop};
 use crate::scene::base_drive::BaseDrive;
@@ -31,10 +31,21 @@ pub type EventDriven<D> = DiskInWedge<VelocityFloor<TabulatedDashpot>, D>;
 
 /// The impact law of a disk of unit mass at a wall, which depends on e_n, kappa and mu alone.
 fn law(values: &Values) -> Result<TabulatedDashpot> {
+    Ok(TabulatedDashpot::new(dashpot(values)?, &[1.0], 0.5))
+}
+
+fn dashpot(values: &Values) -> Result<Dashpot> {
     let ratio = LinearDashpot::damping_ratio_for(values.real("collision.restitution"));
     let (kappa, friction) = (values.real("contact.stiffness_ratio"), values.real("contact.friction"));
-    let law = Dashpot::of_damping_ratio(1.0, ratio, 1.0, kappa, friction)?;
-    Ok(TabulatedDashpot::new(law, &[1.0], 0.5))
+    Ok(Dashpot::of_damping_ratio(1.0, ratio, 1.0, kappa, friction)?)
+}
+
+/// Takes over gravity; its value is that of a flight from `time` \[s\] on.
+fn tune_gravity<L: CollisionLaw, B: BaseMotion>(engine: &mut DiskInWedge<L, B>, time: f64, values: &Values) {
+    let gravity = values.real("gravity");
+    if gravity != engine.setup().gravity {
+        engine.set_gravity(time, gravity);
+    }
 }
 
 fn setup(values: &Values, slow: f64) -> WedgeSetup {
@@ -54,6 +65,7 @@ fn restitution<M>() -> Row<M> {
         0.9,
         "Coefficient of normal restitution e_n",
     )
+    .tunable()
     // Below, a disk stops in its first impacts and is carried by the base, which the map does not know at all.
     .recommended(
         0.1..=1.0,
@@ -207,6 +219,14 @@ impl WedgeEngine for Map {
         Ok(Self::new(setup, law(values)?, walls, start))
     }
 
+    fn tune(&mut self, time: f64, values: &Values) -> Result<()> {
+        if dashpot(values)? != *self.law().law() {
+            self.set_law(law(values)?);
+        }
+        tune_gravity(self, time, values);
+        Ok(())
+    }
+
     fn set_target(&mut self, _time: f64, _duration: f64, _values: &Values) {}
 
     fn refused_step(stop: WedgeStop) -> Error {
@@ -270,6 +290,14 @@ impl<D: BaseDrive + FirstHit> WedgeEngine for EventDriven<D> {
             sideways,
         };
         Ok(Self::new(setup, law, walls, start))
+    }
+
+    fn tune(&mut self, time: f64, values: &Values) -> Result<()> {
+        if dashpot(values)? != *self.law().law().law() {
+            self.set_law(VelocityFloor::new(law(values)?, values.real(FLOOR))?);
+        }
+        tune_gravity(self, time, values);
+        Ok(())
     }
 
     fn set_target(&mut self, time: f64, duration: f64, values: &Values) {

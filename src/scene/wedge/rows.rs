@@ -52,7 +52,7 @@ pub fn exclude_rest<M>(rows: &mut [Row<M>]) {
 /// Wedge, disk and measurement.
 pub fn geometry<M>() -> Vec<Row<M>> {
     vec![
-        Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 1e-3..=1e4, 9.81, GRAVITY),
+        Row::parameter("gravity", Unit::METRE_PER_SECOND_SQUARED, 1e-3..=1e4, 9.81, GRAVITY).tunable(),
         Row::long_parameter(
             "seed",
             0..=i64::MAX,
@@ -120,7 +120,8 @@ pub fn friction<M>() -> Vec<Row<M>> {
             0.0..=1e3,
             0.1,
             "Friction coefficient mu",
-        )),
+        ))
+        .tunable(),
     ]
 }
 

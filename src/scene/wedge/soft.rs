@@ -3,14 +3,15 @@
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
+use crate::contact::LinearDashpot;
 use crate::drive::Motion;
 use crate::engine::DiskMotion;
-use crate::engine::dem::{Breakdown, SoftDiskSetup, TimeStepLimits, Verlet};
+use crate::engine::dem::{Breakdown, FixedGrid, SoftDiskSetup, TimeStepLimits, Verlet};
 use crate::engine::wedge::{Side, WedgeFrame};
 use crate::geometry::{Disk, Vector2, Wall, clockwise};
 use crate::scene::base_drive::BaseDrive;
 use crate::scene::disks_on_base::names;
-use crate::scene::soft_disks::{STEP_OF_ONE_DISK, chosen_time_step, contact_laws, refused_step};
+use crate::scene::soft_disks::{STEP_OF_ONE_DISK, check_tuned_time_step, chosen_time_step, contact_laws, refused_step};
 use crate::scene::{Error, Listing, Result, Row, Unit, Values, Warning, contact_list, recommended};
 
 use super::engine::{AtStart, SpecificEnergies, WedgeEngine};
@@ -79,7 +80,7 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
                 "chosen_time_step",
                 Unit::SECOND,
                 1e-7,
-                "Time step in use",
+                "Time step in use, chosen at the start",
                 |scene: &M| scene.as_ref().setup().time_step,
             )
             .depending_on(&names(&[STEP_OF_ONE_DISK, D::FREQUENCY])),
@@ -126,6 +127,18 @@ impl<D: BaseDrive> WedgeEngine for Soft<D> {
             [disks.velocity[0], disks.velocity[1]] = (sideways * clockwise(&up)).into();
         });
         Ok(engine)
+    }
+
+    fn tune(&mut self, _time: f64, values: &Values) -> Result<()> {
+        let laws = contact_laws::<LinearDashpot>(values);
+        let (gravity, setup) = (values.real("gravity"), self.setup());
+        if laws.tangential == setup.laws.tangential && gravity == setup.gravity {
+            return Ok(());
+        }
+        let limits = TimeStepLimits::verlet(&laws, &setup.masses, self.state().drive.frequency());
+        check_tuned_time_step(values, &limits, setup.time_step)?;
+        FixedGrid::tune(self, laws.tangential.friction, gravity);
+        Ok(())
     }
 
     fn set_target(&mut self, time: f64, duration: f64, values: &Values) {

@@ -3,6 +3,7 @@
 #ifndef JOSTLE_H
 #define JOSTLE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -29,9 +30,9 @@ typedef enum JostleStatus {
 
 // Who sets a variable, and when.
 typedef enum JostleCausality {
-  // Given when the simulation is made, frozen since.
+  // Given when the simulation is made, frozen since unless it is tunable.
   JOSTLE_CAUSALITY_PARAMETER = 0,
-  // Computed from the parameters, constant.
+  // Computed from the parameters, constant unless one that it depends on is tuned.
   JOSTLE_CAUSALITY_CALCULATED_PARAMETER = 1,
   // Set between steps.
   JOSTLE_CAUSALITY_INPUT = 2,
@@ -81,6 +82,8 @@ typedef struct JostleVariable {
   double max;
   // Value if none is given.
   double start;
+  // A parameter that jostle_set may change between steps too.
+  bool tunable;
 } JostleVariable;
 
 #ifdef __cplusplus
@@ -206,7 +209,8 @@ enum JostleStatus jostle_find(const struct JostleSimulation *simulation,
                               const char *name,
                               uint32_t *variable);
 
-// Sets inputs: all, or none if one is refused. They hold until they are set again.
+// Sets inputs and tunable parameters: all, or none if one is refused. They hold until they are set again. A tunable parameter
+// acts from the next step on, which is refused if its value does not go with the others.
 //
 // # Safety
 // `simulation` is null or was made here and not freed; `variables` and `values` are null or have `count` elements.
@@ -215,7 +219,7 @@ enum JostleStatus jostle_set(struct JostleSimulation *simulation,
                              const double *values,
                              size_t count);
 
-// Sets the input called `name`. It holds until it is set again.
+// Sets the input or tunable parameter called `name`. It holds until it is set again.
 //
 // # Safety
 // `simulation` is null or was made here and not freed; `name` is null or a text.

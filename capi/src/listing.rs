@@ -14,9 +14,9 @@ use crate::texts::{VariableTexts, unknown};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 pub enum JostleCausality {
-    /// Given when the simulation is made, frozen since.
+    /// Given when the simulation is made, frozen since unless it is tunable.
     Parameter = 0,
-    /// Computed from the parameters, constant.
+    /// Computed from the parameters, constant unless one that it depends on is tuned.
     CalculatedParameter = 1,
     /// Set between steps.
     Input = 2,
@@ -58,6 +58,8 @@ pub struct JostleVariable {
     pub max: f64,
     /// Value if none is given.
     pub start: f64,
+    /// A parameter that jostle_set may change between steps too.
+    pub tunable: bool,
 }
 
 /// Version of the library, such as `0.1.0`.
@@ -144,5 +146,6 @@ fn describe(row: &Variable, [name, unit, description, options]: [*const c_char; 
         min,
         max,
         start: row.start().to_f64(),
+        tunable: row.tunable,
     }
 }

@@ -74,7 +74,8 @@ pub unsafe extern "C" fn jostle_find(
     }
 }
 
-/// Sets inputs: all, or none if one is refused. They hold until they are set again.
+/// Sets inputs and tunable parameters: all, or none if one is refused. They hold until they are set again. A tunable parameter
+/// acts from the next step on, which is refused if its value does not go with the others.
 ///
 /// # Safety
 /// `simulation` is null or was made here and not freed; `variables` and `values` are null or have `count` elements.
@@ -95,7 +96,7 @@ pub unsafe extern "C" fn jostle_set(
     }
 }
 
-/// Sets the input called `name`. It holds until it is set again.
+/// Sets the input or tunable parameter called `name`. It holds until it is set again.
 ///
 /// # Safety
 /// `simulation` is null or was made here and not freed; `name` is null or a text.

@@ -23,7 +23,7 @@ static const char *told(const JostleSimulation *simulation) {
 
 static void listing(const JostleSimulation *wedge) {
     const uint32_t count = jostle_variable_count(wedge);
-    int inputs = 0, enumerations = 0;
+    int inputs = 0, enumerations = 0, tunable = 0;
     EXPECT(count > 10);
     for (uint32_t number = 0; number < count; number++) {
         JostleVariable variable;
@@ -34,10 +34,12 @@ static void listing(const JostleSimulation *wedge) {
         EXPECT(variable.causality == JOSTLE_CAUSALITY_OUTPUT || variable.causality == JOSTLE_CAUSALITY_CALCULATED_PARAMETER ||
                (variable.start >= variable.min && variable.start <= variable.max));
         inputs += variable.causality == JOSTLE_CAUSALITY_INPUT;
+        tunable += variable.tunable;
+        EXPECT(!variable.tunable || variable.causality == JOSTLE_CAUSALITY_PARAMETER);
         enumerations += variable.kind == JOSTLE_KIND_ENUMERATION;
         EXPECT((variable.kind == JOSTLE_KIND_ENUMERATION) == (strlen(variable.options) > 0));
     }
-    EXPECT(inputs == 3 && enumerations == 0);
+    EXPECT(inputs == 3 && enumerations == 0 && tunable == 3);
     JostleVariable variable;
     EXPECT(jostle_variable(wedge, count, &variable) == JOSTLE_STATUS_ERROR);
     EXPECT(strstr(told(wedge), "jostle_find"));
@@ -65,7 +67,11 @@ static void values(JostleSimulation *wedge) {
     EXPECT(jostle_set(wedge, numbers, NULL, 1) == JOSTLE_STATUS_ERROR);
     EXPECT(jostle_set(wedge, numbers, fine, SIZE_MAX) == JOSTLE_STATUS_ERROR);
     EXPECT(jostle_set_by_name(wedge, "base.velocity", 0.0) == JOSTLE_STATUS_OK);
-    EXPECT(jostle_set_by_name(wedge, "gravity", 1.0) == JOSTLE_STATUS_ERROR && strstr(told(wedge), "frozen"));
+    EXPECT(jostle_set_by_name(wedge, "disk.mass", 1.0) == JOSTLE_STATUS_ERROR && strstr(told(wedge), "frozen"));
+    EXPECT(jostle_set_by_name(wedge, "gravity", -1.0) == JOSTLE_STATUS_ERROR && strstr(told(wedge), "gravity"));
+    EXPECT(jostle_set_by_name(wedge, "gravity", 9.5) == JOSTLE_STATUS_OK);
+    EXPECT(jostle_get_by_name(wedge, "gravity", now) == JOSTLE_STATUS_OK && now[0] == 9.5);
+    now[0] = 1e-4;
     EXPECT(jostle_set_by_name(wedge, "energy.kinetic", 1.0) == JOSTLE_STATUS_ERROR);
     EXPECT(jostle_set_by_name(wedge, "\xff", 1.0) == JOSTLE_STATUS_ERROR && strstr(told(wedge), "UTF-8"));
 

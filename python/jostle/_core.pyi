@@ -3,7 +3,7 @@ from typing import Any, final
 
 VERSION: str
 
-Row = tuple[str, str, str, str, float, float, float, list[str], str, str, str]
+Row = tuple[str, str, str, str, float, float, float, list[str], str, str, str, bool]
 
 def scenes() -> list[tuple[str, str, str, str, int, int]]: ...
 

@@ -105,7 +105,8 @@ class Simulation:
         """Table of the variables: one row a name.
 
         Columns: causality, kind, unit, minimum, maximum, recommended (range in which the model makes sense, as a text),
-        reason (what is wrong outside of it), start, size, options, description.
+        reason (what is wrong outside of it), start, size, options, description, tunable (a parameter that may be set between
+        steps too).
         """
         import pandas as pd  # noqa: PLC0415 - takes longer than all else, and loops do without
 
@@ -122,6 +123,7 @@ class Simulation:
                 "size": len(v.positions),
                 "options": ", ".join(v.options),
                 "description": v.description,
+                "tunable": v.tunable,
             }
             for v in self._variables.values()
         }
@@ -150,12 +152,12 @@ class Simulation:
         return True
 
     def __setitem__(self, name: str, value: float | str) -> None:
-        """Set an input; it holds until it is set again.
+        """Set an input, which holds until it is set again, or a tunable parameter, which acts from the next step on.
 
         Raises:
             NoVariableError: the scene has no such variable.
             ParameterError: a value out of range.
-            CallError: a parameter, frozen since the start, or an output.
+            CallError: a parameter that is not tunable, frozen since the start, or an output.
 
         """
         self._set({name: value})
@@ -237,7 +239,7 @@ class Simulation:
 
         Args:
             step: length [s], above 0.
-            inputs: such as `**{"base.displacement": 1e-3, "base.velocity": 0.1}`.
+            inputs: and tunable parameters, such as `**{"base.displacement": 1e-3, "base.velocity": 0.1}`.
 
         Raises:
             StepError: the step cannot be done; the simulation is as before.

@@ -34,6 +34,7 @@ class Variable:
         recommended: range in which the model makes sense, or which quantity has which; empty for none. Outside of it
             the simulation warns.
         reason: what is wrong outside of it.
+        tunable: a parameter that may be set between steps too.
         positions: of its elements in the table of the scene.
         elements: their names; empty for a single variable.
 
@@ -50,6 +51,7 @@ class Variable:
     description: str
     recommended: str
     reason: str
+    tunable: bool
     positions: tuple[int, ...]
     elements: tuple[str, ...]
 
@@ -73,11 +75,11 @@ def grouped(rows: "Iterable[Row]") -> dict[str, Variable]:
 
 def _variable(base: str, members: "list[tuple[int, Row]]") -> Variable:
     """What is known of all from the first of them."""
-    name, causality, kind, unit, low, high, start, options, told, recommended, reason = members[0][1]
+    name, causality, kind, unit, low, high, start, options, told, recommended, reason, tunable = members[0][1]
     elements = tuple(row[0] for _, row in members) if name != base else ()
     positions = tuple(position for position, _ in members)
     text = re.sub(r"\bof disk 1\b", "of each disk", told)
-    about = (tuple(options), text, recommended, reason)
+    about = (tuple(options), text, recommended, reason, tunable)
     return Variable(base, causality, kind, unit, low, high, start, *about, positions, elements)
 
 

@@ -117,7 +117,7 @@ impl Core {
         })
     }
 
-    /// Sets parameters (before the start) and inputs: all, or none if one is refused.
+    /// Sets parameters (tunable ones alone after the start) and inputs: all, or none if one is refused.
     fn set(&self, py: Python<'_>, given: Vec<(usize, Bound<'_, PyAny>)>) -> PyResult<()> {
         let rows = enter(py, &self.held, Access::Read, |simulation| {
             Ok(simulation.values().table().clone())

@@ -21,7 +21,7 @@ pub fn scenes() -> Vec<(&'static str, &'static str, &'static str, String, u32, u
     MODELS.iter().map(|model| row((model.info)())).collect()
 }
 
-/// Name, causality, kind, unit, smallest, largest and start value, options, description, recommended range and its reason.
+/// Name, causality, kind, unit, smallest, largest and start value, options, description, recommended range and its reason, whether it is tunable.
 pub type Row = (
     String,
     &'static str,
@@ -34,6 +34,7 @@ pub type Row = (
     String,
     String,
     &'static str,
+    bool,
 );
 
 /// A variable as a tuple.
@@ -58,6 +59,7 @@ pub fn row(variable: &Variable) -> Row {
         variable.description.clone(),
         recommended.map_or_else(String::new, Recommended::text),
         recommended.map_or("", |recommended| recommended.reason),
+        variable.tunable,
     )
 }
 

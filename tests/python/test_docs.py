@@ -109,6 +109,15 @@ def test_whole_steps_are_taken_back_and_done_in_halves(fmu3: Path):
     assert found and 0.0 < float(found[1]) < 0.5, output
 
 
+def test_friction_changes_during_a_run_and_the_balance_stays_closed(fmu3: Path):
+    assert fmu3.is_file()
+    output = python(snippet(CONTROL, "python", "tune"))
+    found = re.search(r"friction at the end: (\S+)\nlost between 0.2 s and 0.3 s: (\S+) J, residual (\S+) J", output)
+    assert found, output
+    assert float(found[1]) == 0.05
+    assert 0.0 < float(found[3]) < 0.05 * float(found[2]), output
+
+
 def test_two_packings_and_a_disk_on_threads_are_those_of_one_thread(jostle: Path, fmu3: Path):
     assert fmu3.is_file()
     run(str(jostle), "fmu", "three_disk", "--fmi", "3", "--out", str(BUILD / "three_disk.fmu"))
@@ -235,6 +244,7 @@ def test_peers_are_built_and_run():
         (PYTHON, "python", "installed"),
         (PYTHON, "python", "contacts"),
         (PYTHON, "python", "states"),
+        (PYTHON, "python", "tunable"),
         (PYTHON, "python", "refusal"),
         ("python/README.md", "python", "package"),
         ("README.md", "python", "first-run"),

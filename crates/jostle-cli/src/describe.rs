@@ -91,14 +91,7 @@ fn line(row: &Variable, run: usize) -> Vec<String> {
         }
         Kind::Long { range, .. } => ("64-bit integer", format!("{} to {}", range.start(), range.end())),
     };
-    vec![
-        name,
-        row.causality.word().into(),
-        unit.into(),
-        range,
-        start,
-        description,
-    ]
+    vec![name, row.role().into(), unit.into(), range, start, description]
 }
 
 fn real_range(min: f64, max: f64) -> String {

@@ -190,7 +190,7 @@ fn extreme_changes_are_computed_or_refused() {
     for tried in tunable_scenes() {
         let Tried { selection, changes, .. } = &tried;
         let mut one = tried.start();
-        one.limit_work(1_000_000);
+        one.limit_work(200_000);
         run(&mut one, 0.05);
         let mut refused = 0;
         for (name, value) in changes {

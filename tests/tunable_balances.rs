@@ -165,10 +165,12 @@ fn balance<M: Model>(simulation: &Simulation<M>, soft: bool) -> Balance {
 
 /// What a change does at its instant, seen across one time step after it: springs lose what friction no longer holds, gravity
 /// changes the potential energy alone, and the residual stays where it was.
-fn balances_across_a_change<M: Model>(drive: &[(&str, f64)]) {
+///
+/// Tangential forces are within `slack` of the limit of friction, in units of friction times the largest normal force.
+fn balances_across_a_change<M: Model>(drive: &[(&str, f64)], slack: f64) {
     let mut simulation = simulation_of::<M>(40, drive);
     let step = simulation.real("chosen_time_step").unwrap();
-    let (mut slipped, mut n) = (0.0, 0_u32);
+    let (mut slipped, mut n) = (0.0_f64, 0_u32);
     for (friction, gravity) in [
         (0.5, 9.8),
         (0.05, 9.8),
@@ -201,24 +203,26 @@ fn balances_across_a_change<M: Model>(drive: &[(&str, f64)]) {
             after.potential
         );
         if friction_falls {
-            slipped += after.lost - before.lost;
+            slipped = slipped.max((after.lost - before.lost) / energy);
         }
-        // The normal force of the list has the velocity at the end of the step, that of the limit the predicted one.
-        let limit = friction * (1.0 + 1e-3);
         let contacts = simulation.list("contacts").unwrap();
         let columns = contacts.info.columns.iter().map(|column| column.name);
         let column = |name: &str| columns.clone().position(|known| known == name).unwrap();
         let (normal, tangential) = (column("normal_force"), column("tangential_force"));
-        for row in contacts.numbers.chunks(contacts.info.columns.len()) {
+        let rows = || contacts.numbers.chunks(contacts.info.columns.len());
+        let largest = rows().map(|row| row[normal]).fold(0.0, f64::max);
+        for row in rows() {
             assert!(
-                row[tangential].abs() <= limit * row[normal],
+                row[tangential].abs() <= friction * (row[normal] + slack * largest),
                 "{friction}: {} of {} N",
                 row[tangential],
                 row[normal]
             );
         }
     }
-    assert!(slipped > 0.0);
+    // What slips is more than the residual may change: a balance without it would be seen to be open.
+    println!("{:?}: {slipped:.1e} of the energy slips", M::info().variant);
+    assert!(slipped > 5e-4, "{slipped}");
 }
 
 #[test]
@@ -228,9 +232,10 @@ fn soft_packings_balance_their_energy_across_changes() {
         ("drive.frequency", 80.0),
         ("contact.normal_damping", 1.0),
     ];
-    balances_across_a_change::<PackingOnSine>(&drive);
-    balances_across_a_change::<LocatedPackingOnSine>(&drive);
-    balances_across_a_change::<PackingOnFixedBottom>(&drive);
+    // Velocity Verlet limits the springs by the dashpot's force at the predicted velocity, the list shows it at the corrected one.
+    balances_across_a_change::<PackingOnSine>(&drive, 1e-3);
+    balances_across_a_change::<PackingOnFixedBottom>(&drive, 1e-3);
+    balances_across_a_change::<LocatedPackingOnSine>(&drive, 1e-9);
 }
 
 /// Impacts and flights are exact: the residual is rounding before and after.

@@ -105,8 +105,8 @@ class Simulation:
         """Table of the variables: one row a name.
 
         Columns: causality, kind, unit, minimum, maximum, recommended (range in which the model makes sense, as a text),
-        reason (what is wrong outside of it), start, size, options, description, tunable (a parameter that may be set between
-        steps too).
+        reason (what is wrong outside of it), start, size, options, description, tunable (a parameter that may be set
+        between steps too).
         """
         import pandas as pd  # noqa: PLC0415 - takes longer than all else, and loops do without
 

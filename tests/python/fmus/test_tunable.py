@@ -1,13 +1,14 @@
-"""Tunable parameters by other people's importer: set during a simulation, with the bits of the Python package, and rolled back."""
+"""Tunable parameters in fmpy: set during a simulation, with the bits of the Python package, and rolled back."""
 
 import math
 from pathlib import Path
 
 import fmpy
-import jostle
 import numpy as np
 import pytest
 from fmu_client import getter, in_fmpy, setter
+
+import jostle
 
 AMPLITUDE, OMEGA, STEP, STEPS = 1e-3, 2.0 * math.pi * 20.0, 1.0 / 512.0, 96
 INPUTS = ["base.displacement", "base.velocity"]

@@ -59,7 +59,11 @@ def test_simulations_that_cannot_be(make: Callable[[], object], kind: type[Excep
         (lambda sim: sim["disk.angel"], jostle.NoVariableError, ["disk.angel", "disk.angle"]),
         (lambda sim: sim["disk.angle[6]"], jostle.NoVariableError, ["disk.angle[6]", "disk.angle[5]"]),
         (lambda sim: sim["disk.angle[0]"], jostle.NoVariableError, ["disk.angle[1]"]),
-        (lambda sim: sim.__setitem__("disk.surface_density", 3.7), jostle.CallError, ["disk.surface_density", "frozen"]),
+        (
+            lambda sim: sim.__setitem__("disk.surface_density", 3.7),
+            jostle.CallError,
+            ["disk.surface_density", "frozen"],
+        ),
         (lambda sim: sim.__setitem__("contacts", 3), jostle.CallError, ["contacts", "computed"]),
         (lambda sim: sim[3], jostle.NoVariableError, ["no variable 3", "texts"]),
         (lambda sim: sim[["disk.x"]], jostle.NoVariableError, ["['disk.x']", "texts"]),

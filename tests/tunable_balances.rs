@@ -235,7 +235,8 @@ fn soft_packings_balance_their_energy_across_changes() {
     // Velocity Verlet limits the springs by the dashpot's force at the predicted velocity, the list shows it at the corrected one.
     balances_across_a_change::<PackingOnSine>(&drive, 1e-3);
     balances_across_a_change::<PackingOnFixedBottom>(&drive, 1e-3);
-    balances_across_a_change::<LocatedPackingOnSine>(&drive, 1e-9);
+    // Located events keep a tolerance of 1e-5; the spring shown is that of the pass before the last.
+    balances_across_a_change::<LocatedPackingOnSine>(&drive, 1e-5);
 }
 
 /// Impacts and flights are exact: the residual is rounding before and after.

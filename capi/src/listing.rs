@@ -126,8 +126,14 @@ pub unsafe extern "C" fn jostle_variable(
 
 fn describe(row: &Variable, [name, unit, description, options]: [*const c_char; 4]) -> JostleVariable {
     let kind = match &row.kind {
-        scene::Kind::Real(_) => JostleKind::Real,
-        scene::Kind::Integer { .. } | scene::Kind::Long { .. } => JostleKind::Integer,
+        scene::Kind::Real(_) | scene::Kind::Single(_) => JostleKind::Real,
+        scene::Kind::Integer { .. }
+        | scene::Kind::Long { .. }
+        | scene::Kind::Sized { .. }
+        | scene::Kind::Boolean { .. }
+        // By their lengths: no scene has any.
+        | scene::Kind::Text { .. }
+        | scene::Kind::Binary { .. } => JostleKind::Integer,
         scene::Kind::Enumeration { .. } => JostleKind::Enumeration,
     };
     let [min, max] = row.kind.bounds();

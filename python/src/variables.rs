@@ -69,7 +69,7 @@ pub fn row(variable: &Variable) -> Row {
 /// An object of another kind, said as the command line says it.
 pub fn value(variable: &Variable, given: &Bound<'_, PyAny>) -> jostle::Result<Value> {
     let found = match variable.kind {
-        Kind::Real(_) => given.extract().map(Value::Real).ok(),
+        Kind::Real(_) | Kind::Single(_) => given.extract().map(Value::Real).ok(),
         _ => given.extract().map(Value::Integer).ok(),
     };
     match found {

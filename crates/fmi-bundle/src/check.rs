@@ -85,7 +85,7 @@ fn check_variable(variable: &Variable) -> Result<()> {
         ));
     }
     check_text(&format!("description of {name}"), &variable.description)?;
-    if let Kind::Real(quantity) = &variable.kind {
+    if let Some(quantity) = variable.kind.quantity() {
         let (min, max, nominal) = (quantity.min, quantity.max, quantity.nominal);
         if min.is_nan() || max.is_nan() || min > max {
             return Err(Error::parameter(
@@ -104,9 +104,22 @@ fn check_variable(variable: &Variable) -> Result<()> {
             ));
         }
     }
+    if let Some(bytes) = variable.kind.start_bytes() {
+        check_start(variable, bytes)?;
+        return variable.check_bytes(bytes);
+    }
     match variable.causality.is_settable() {
         true => variable.check(variable.start()),
         false => Ok(()),
+    }
+}
+
+/// The start value of a text stands in an attribute of the XML.
+fn check_start(variable: &Variable, bytes: &[u8]) -> Result<()> {
+    match &variable.kind {
+        Kind::Text { start } => check_text(&format!("start value of {}", variable.name), start),
+        Kind::Binary { mime_type, .. } => check_text(&format!("MIME type of {}", variable.name), mime_type),
+        _ => variable.check_bytes(bytes),
     }
 }
 

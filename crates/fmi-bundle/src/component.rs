@@ -4,7 +4,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use fmi_component::handle::describe;
-use fmi_component::{Error, Kind, ModelInfo, ModelType, Result, StructuralParameters, Table, Variable, arrays, token};
+use fmi_component::{
+    Error, Kind, ModelInfo, ModelType, Result, StructuralParameters, Table, Variable, Version, arrays, token,
+};
 
 use crate::check::check;
 
@@ -118,6 +120,21 @@ impl Component {
     /// Instantiation token (FMI 3.0) or GUID (FMI 2.0).
     pub fn token(&self) -> String {
         token::write(&self.info, &self.structure, self.table.variables(), self.arrays)
+    }
+
+    /// Whether FMI of this version has the type of the variable at `position`.
+    pub(crate) fn is_in(&self, version: Version, position: usize) -> bool {
+        let is_binary = matches!(self.table.variables()[position].kind, Kind::Binary { .. });
+        version == Version::Three || !is_binary
+    }
+
+    /// Names of the variables that an FMU of `version` leaves out: FMI 2.0 has no binary variables. Inputs keep their start values.
+    pub fn left_out(&self, version: Version) -> Vec<&str> {
+        let names = self.table.variables().iter().enumerate();
+        names
+            .filter(|(position, _)| !self.is_in(version, *position))
+            .map(|(_, variable)| variable.name.as_str())
+            .collect()
     }
 
     /// What wrote the FMU: package and version of the model.

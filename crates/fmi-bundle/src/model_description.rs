@@ -165,13 +165,18 @@ impl<'a> Layout<'a> {
         &self.component.table().variables()[position]
     }
 
-    /// Positions at which a variable begins.
+    /// Positions at which a variable begins that this version has.
     fn positions(&self) -> impl Iterator<Item = usize> {
-        (0..self.spans.len()).filter(|position| self.spans[*position] > 0)
+        (0..self.spans.len()).filter(|position| self.lists(*position))
     }
-}
 
-/// Index of the variable at `position` in FMI 2.0: counted from 1, and the time comes first.
-fn index(position: usize) -> String {
-    (position + 2).to_string()
+    fn lists(&self, position: usize) -> bool {
+        self.spans[position] > 0 && self.component.is_in(self.version, position)
+    }
+
+    /// Index of the variable at `position` in FMI 2.0: counted from 1, and the time comes first.
+    fn index(&self, position: usize) -> String {
+        let before = (0..position).filter(|before| self.lists(*before)).count();
+        (before + 2).to_string()
+    }
 }

@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use fmi_component::{Causality, DynSimulation, Error, ModelInfo, Result, Table, Value};
+use fmi_component::{Causality, DynSimulation, Error, Kind, ModelInfo, Result, Table, Value, Variable};
 
 use crate::component::{Component, catch_defect};
 
@@ -97,10 +97,17 @@ pub(crate) fn omega(component: &Component) -> f64 {
     TAU / (PERIOD * step(component))
 }
 
+/// Positions of the variables of this causality that a trajectory has: numbers that every importer reads as reals, and inputs that it
+/// sets so. Others stay at their start values.
 pub(crate) fn of(table: &Table, causality: Causality) -> Vec<usize> {
     let variables = table.variables().iter().enumerate();
+    let is_number = |variable: &Variable| match variable.kind {
+        Kind::Real(_) => true,
+        Kind::Integer { .. } | Kind::Enumeration { .. } => causality == Causality::Output,
+        _ => false,
+    };
     variables
-        .filter(|(_, variable)| variable.causality == causality)
+        .filter(|(_, variable)| variable.causality == causality && is_number(variable))
         .map(|(position, _)| position)
         .collect()
 }

@@ -84,7 +84,9 @@ pub trait DynSimulation: Send {
     fn values(&self) -> &Values;
     fn position(&self, name: &str) -> Result<usize>;
     fn set_at(&mut self, position: usize, value: Value) -> Result<()>;
+    fn set_bytes_at(&mut self, position: usize, bytes: &[u8]) -> Result<()>;
     fn value(&self, position: usize) -> Result<Value>;
+    fn bytes(&self, position: usize) -> Result<&[u8]>;
     fn read_reals(&self, first: usize, out: &mut [f64]) -> Result<()>;
     fn list(&self, name: &str) -> Result<Listed>;
     fn set_start_time(&mut self, time: f64) -> Result<()>;
@@ -136,8 +138,16 @@ impl<M: Model> DynSimulation for Simulation<M> {
         self.set_at(position, value)
     }
 
+    fn set_bytes_at(&mut self, position: usize, bytes: &[u8]) -> Result<()> {
+        self.set_bytes_at(position, bytes)
+    }
+
     fn value(&self, position: usize) -> Result<Value> {
         self.value(position)
+    }
+
+    fn bytes(&self, position: usize) -> Result<&[u8]> {
+        self.bytes(position)
     }
 
     fn read_reals(&self, first: usize, out: &mut [f64]) -> Result<()> {

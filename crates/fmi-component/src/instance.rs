@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use crate::dynamic::{DynSimulation, ModelType};
 use crate::error::{Error, Result};
+use crate::kind::Kind;
 use crate::life_cycle::{Call, Phase};
 use crate::model::Warning;
 use crate::standard::TOLERANCE;
@@ -20,7 +21,7 @@ use crate::times::check_start;
 use crate::token;
 use crate::unit::Unit;
 use crate::value::Value;
-use crate::variable::{Causality, Kind};
+use crate::variable::Causality;
 pub use saving::Snapshot;
 pub use stepping::Part;
 use stepping::UnderWay;
@@ -108,6 +109,11 @@ impl Instance {
     /// Parameters and inputs.
     pub fn values(&self) -> &[Value] {
         self.simulation.values().as_slice()
+    }
+
+    /// Contents of the texts and binary variables among them.
+    pub fn all_bytes(&self) -> &[Vec<u8>] {
+        self.simulation.values().all_bytes()
     }
 
     /// Token that it was made with.

@@ -3,10 +3,11 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
+use crate::kind::{Kind, Quantity};
 use crate::recommended::{Derived, Recommended};
 use crate::unit::Unit;
 use crate::value::Value;
-use crate::variable::{Causality, Kind, Quantity, TerminalMember, Variable};
+use crate::variable::{Causality, TerminalMember, Variable};
 
 /// Fills a slice with the elements of a real array from an index on, counted from 0.
 type Fill<M> = Arc<dyn Fn(&M, usize, &mut [f64]) + Send + Sync>;
@@ -24,8 +25,10 @@ pub enum Read<M> {
         /// Elements of the array.
         count: usize,
     },
-    /// A whole number or the number of an option.
+    /// A whole number, the number of an option, or 1 for true and 0 for false.
     Integer(fn(&M) -> i64),
+    /// The bytes of a text, or those of a binary variable.
+    Bytes(fn(&M) -> &[u8]),
 }
 
 // A derived one would ask for M: Clone.
@@ -39,6 +42,7 @@ impl<M> Clone for Read<M> {
                 count,
             },
             Self::Integer(read) => Self::Integer(read),
+            Self::Bytes(read) => Self::Bytes(read),
         }
     }
 }
@@ -55,6 +59,7 @@ impl<M> Read<M> {
         let mut real = [0.0];
         match *self {
             Self::Integer(read) => Value::Integer(read(model)),
+            Self::Bytes(read) => Value::Integer(read(model).len() as i64),
             _ => {
                 self.fill(model, &mut real);
                 Value::Real(real[0])
@@ -73,7 +78,7 @@ impl<M> Read<M> {
                 fill(model, index, &mut out[..filled]);
                 return filled;
             }
-            Self::Integer(_) => return 0,
+            Self::Integer(_) | Self::Bytes(_) => return 0,
         }
         1
     }
@@ -112,12 +117,12 @@ impl<M> Row<M> {
             nominal,
             start,
         };
-        Self::make(name, description, Causality::Parameter, Kind::Real(quantity), None)
+        Self::new(name, description, Causality::Parameter, Kind::Real(quantity), None)
     }
 
     /// A fixed parameter that is a whole number of 64 bits.
     pub fn long_parameter(name: &str, range: RangeInclusive<i64>, start: i64, description: &str) -> Self {
-        Self::make(
+        Self::new(
             name,
             description,
             Causality::Parameter,
@@ -139,12 +144,12 @@ impl<M> Row<M> {
             options,
             start,
         };
-        Self::make(name, description, Causality::Parameter, kind, None)
+        Self::new(name, description, Causality::Parameter, kind, None)
     }
 
     /// A continuous input that starts at zero and may take any finite value.
     pub fn input(name: &str, unit: Unit, nominal: f64, description: &str) -> Self {
-        Self::make(name, description, Causality::Input, unbounded(unit, nominal), None)
+        Self::new(name, description, Causality::Input, unbounded(unit, nominal), None)
     }
 
     /// A continuous output.
@@ -156,7 +161,7 @@ impl<M> Row<M> {
         read: fn(&M) -> f64,
     ) -> Self {
         let kind = unbounded(unit, nominal);
-        Self::make(name, description, Causality::Output, kind, Some(Read::Real(read)))
+        Self::new(name, description, Causality::Output, kind, Some(Read::Real(read)))
     }
 
     /// A real that is known when initialisation ends and stays, unless a tunable parameter that it depends on changes.
@@ -168,7 +173,7 @@ impl<M> Row<M> {
         read: fn(&M) -> f64,
     ) -> Self {
         let kind = unbounded(unit, nominal);
-        Self::make(
+        Self::new(
             name,
             description,
             Causality::CalculatedParameter,
@@ -183,7 +188,7 @@ impl<M> Row<M> {
             range: 0..=i64::from(i32::MAX),
             start: 0,
         };
-        Self::make(name, description, Causality::Output, kind, Some(Read::Integer(read)))
+        Self::new(name, description, Causality::Output, kind, Some(Read::Integer(read)))
     }
 
     /// One of `options` among the outputs, each a name and a sentence; the first has the number 1.
@@ -199,7 +204,7 @@ impl<M> Row<M> {
             options,
             start: 1,
         };
-        Self::make(name, description, Causality::Output, kind, Some(Read::Integer(read)))
+        Self::new(name, description, Causality::Output, kind, Some(Read::Integer(read)))
     }
 
     /// Continuous outputs `name[1]` to `name[count]`; `read` gets the element counted from 0. The description of element 3 is
@@ -226,7 +231,7 @@ impl<M> Row<M> {
                 count: count as usize,
             });
             let name = format!("{name}[{number}]");
-            Self::make(name, what.replace("{}", &number), Causality::Output, kind, read)
+            Self::new(name, what.replace("{}", &number), Causality::Output, kind, read)
         })
     }
 
@@ -299,7 +304,8 @@ impl<M> Row<M> {
         self
     }
 
-    fn make(
+    /// A variable of any kind; `read` is `None` for parameters and inputs alone.
+    pub fn new(
         name: impl Into<String>,
         description: impl Into<String>,
         causality: Causality,

@@ -144,6 +144,18 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// As [`Simulation::set`].
     pub fn set_at(&mut self, position: usize, value: impl Into<Value>) -> Result<()> {
+        let tunes = self.check_frozen(position)?;
+        self.values.set(position, value.into())?;
+        self.retuned |= tunes;
+        Ok(())
+    }
+
+    /// Whether a tunable parameter of a model that has started is at `position`.
+    ///
+    /// # Errors
+    /// Another parameter is, which is frozen.
+    #[inline]
+    fn check_frozen(&self, position: usize) -> Result<bool> {
         let variable = self.table().variables().get(position);
         let started = variable.filter(|variable| variable.causality == Causality::Parameter && self.is_started());
         match started {
@@ -151,13 +163,25 @@ impl<M: Model> Simulation<M> {
                 format!("{} is a parameter, frozen since the start", variable.name),
                 "Give it when the simulation is made.",
             )),
-            parameter => {
-                let tunes = parameter.is_some();
-                self.values.set(position, value.into())?;
-                self.retuned |= tunes;
-                Ok(())
-            }
+            parameter => Ok(parameter.is_some()),
         }
+    }
+
+    /// Sets a text or binary input, or such a parameter before the start: see [`Simulation::set`].
+    ///
+    /// # Errors
+    /// As [`Simulation::set`]; a text that is not UTF-8 or holds a zero byte.
+    pub fn set_bytes(&mut self, name: &str, bytes: impl AsRef<[u8]>) -> Result<()> {
+        self.set_bytes_at(self.position(name)?, bytes.as_ref())
+    }
+
+    /// [`Simulation::set_bytes`] without the search.
+    ///
+    /// # Errors
+    /// As [`Simulation::set_bytes`].
+    pub fn set_bytes_at(&mut self, position: usize, bytes: &[u8]) -> Result<()> {
+        self.check_frozen(position)?;
+        self.values.set_bytes(position, bytes)
     }
 
     /// Position of the variable called `name`: the same for as long as the simulation lives.
@@ -275,6 +299,42 @@ impl<M: Model> Simulation<M> {
         match self.value(self.position(name)?)? {
             Value::Integer(integer) => Ok(integer),
             Value::Real(_) => Err(Error::call(format!("{name} is a real number"), "Read it as a real.")),
+        }
+    }
+
+    /// The boolean called `name`, as of now.
+    ///
+    /// # Errors
+    /// As [`Simulation::integer`].
+    pub fn boolean(&self, name: &str) -> Result<bool> {
+        self.integer(name).map(|integer| integer != 0)
+    }
+
+    /// The text called `name`, as of now.
+    ///
+    /// # Errors
+    /// The model has no such variable, or it holds numbers or bytes that are no text.
+    pub fn text(&self, name: &str) -> Result<&str> {
+        let bytes = self.bytes(self.position(name)?)?;
+        std::str::from_utf8(bytes).map_err(|_| Error::call(format!("{name} is no text"), "Read it as bytes."))
+    }
+
+    /// Contents of the text or binary variable at `position`, as of now.
+    ///
+    /// # Errors
+    /// No variable there, one that holds numbers, or a computed one before the start.
+    pub fn bytes(&self, position: usize) -> Result<&[u8]> {
+        if let Some(bytes) = self.values.bytes(position) {
+            return Ok(bytes);
+        }
+        let computed = position.checked_sub(self.values.as_slice().len());
+        match (&self.model, computed.and_then(|computed| self.reads.get(computed))) {
+            (Some(model), Some(Read::Bytes(read))) => Ok(read(model)),
+            (None, Some(Read::Bytes(_))) => Err(self.no_value(position)),
+            _ => Err(match self.variables().get(position) {
+                Some(variable) => Error::call(format!("{} is no text", variable.name), "Read it as a number."),
+                None => self.table().no_variable(position),
+            }),
         }
     }
 

@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use crate::error::{Error, Result};
-use crate::variable::{Causality, Kind, Variability, Variable};
+use crate::kind::Kind;
+use crate::variable::{Causality, Variability, Variable};
 
 /// The variables of a model. Made once per component, shared and never changed.
 pub struct Table {
@@ -13,6 +14,8 @@ pub struct Table {
     /// Positions of the tunable parameters.
     tunable: Vec<usize>,
     by_name: HashMap<String, usize>,
+    /// Positions of the parameters and inputs that are texts or binary.
+    bytes: Vec<usize>,
     /// Position of the derivative of the variable at each position.
     derivatives: HashMap<usize, usize>,
 }
@@ -66,7 +69,9 @@ impl Table {
             };
             derivatives.insert(position, derivative);
         }
+        let holds_bytes = |position: &usize| variables[*position].kind.start_bytes().is_some();
         Ok(Self {
+            bytes: (0..settable).filter(holds_bytes).collect(),
             variables,
             settable,
             tunable,
@@ -105,7 +110,7 @@ impl Table {
             }
             (Causality::Input | Causality::Output, _) => {
                 return match variable.kind {
-                    Kind::Real(_) => Variability::Continuous,
+                    Kind::Real(_) | Kind::Single(_) => Variability::Continuous,
                     _ => Variability::Discrete,
                 };
             }
@@ -115,6 +120,11 @@ impl Table {
         } else {
             Variability::Fixed
         }
+    }
+
+    /// Positions of the parameters and inputs that are texts or binary, in their order.
+    pub(crate) fn bytes(&self) -> &[usize] {
+        &self.bytes
     }
 
     /// Position of the variable called `name`.

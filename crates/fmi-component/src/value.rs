@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub enum Value {
     /// Of a [`Kind::Real`](crate::Kind::Real).
     Real(f64),
-    /// Of any other [`Kind`](crate::Kind).
+    /// Of any other [`Kind`](crate::Kind): true is 1 and false is 0, and a text or a binary variable is its length in bytes.
     Integer(i64),
 }
 
@@ -32,6 +32,12 @@ impl From<f64> for Value {
 impl From<i64> for Value {
     fn from(integer: i64) -> Self {
         Self::Integer(integer)
+    }
+}
+
+impl From<bool> for Value {
+    fn from(boolean: bool) -> Self {
+        Self::Integer(boolean.into())
     }
 }
 

@@ -1,11 +1,10 @@
 //! What is known of a variable: the single source of the XML, of get and set, of range checks and of the documentation page.
 
-use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use crate::error::{Error, Result};
+use crate::kind::Kind;
 use crate::recommended::Recommended;
-use crate::unit::Unit;
 use crate::value::Value;
 
 /// Name of the independent variable of every component.
@@ -66,88 +65,6 @@ impl Variability {
     }
 }
 
-/// What a variable holds.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Kind {
-    /// A continuous quantity in SI units.
-    Real(Quantity),
-    /// A whole number that fits 32 bits, such as a count of contacts.
-    Integer {
-        /// Allowed values.
-        range: RangeInclusive<i64>,
-        /// Start value.
-        start: i64,
-    },
-    /// A whole number of 64 bits, such as a seed. FMI 2.0 has only 32 bits and narrows the range.
-    Long {
-        /// Allowed values.
-        range: RangeInclusive<i64>,
-        /// Start value.
-        start: i64,
-    },
-    /// One of a few named options, held as its number: 1 is the first.
-    Enumeration {
-        /// Name of the type, such as `base_model`; variables of one type share it and the options.
-        type_name: &'static str,
-        /// Names of the options with one sentence each. No two names are equal.
-        options: &'static [(&'static str, &'static str)],
-        /// Start value.
-        start: i64,
-    },
-}
-
-impl Kind {
-    /// One word for tables.
-    pub const fn word(&self) -> &'static str {
-        match self {
-            Self::Real(_) => "real",
-            Self::Integer { .. } | Self::Long { .. } => "integer",
-            Self::Enumeration { .. } => "option",
-        }
-    }
-
-    /// Unit of its numbers.
-    pub const fn unit(&self) -> Unit {
-        match self {
-            Self::Real(quantity) => quantity.unit,
-            _ => Unit::ONE,
-        }
-    }
-
-    /// Smallest and largest allowed value; infinite for none. Whole numbers beyond 2^53 are rounded.
-    pub fn bounds(&self) -> [f64; 2] {
-        match self {
-            Self::Real(quantity) => [quantity.min, quantity.max],
-            Self::Integer { range, .. } | Self::Long { range, .. } => [*range.start() as f64, *range.end() as f64],
-            Self::Enumeration { options, .. } => [1.0, options.len() as f64],
-        }
-    }
-
-    /// Names of the options, none unless it is an enumeration; the first has the number 1.
-    pub fn options(&self) -> impl Iterator<Item = &'static str> + use<> {
-        let options = match *self {
-            Self::Enumeration { options, .. } => options,
-            _ => &[],
-        };
-        options.iter().map(|(name, _)| *name)
-    }
-}
-
-/// Unit, range and start of a real variable.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Quantity {
-    /// Unit.
-    pub unit: Unit,
-    /// Smallest allowed value, inclusive; `f64::NEG_INFINITY` for none.
-    pub min: f64,
-    /// Largest allowed value, inclusive; `f64::INFINITY` for none.
-    pub max: f64,
-    /// Size that a typical value has, for importers that scale tolerances.
-    pub nominal: f64,
-    /// Start value of parameters and inputs. Outputs ignore it: theirs is computed.
-    pub start: f64,
-}
-
 /// A variable's place in a terminal: the connector that FMI 3.0 describes in `terminalsAndIcons.xml`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TerminalMember {
@@ -194,17 +111,23 @@ impl Variable {
     /// Start value as the table stores it.
     pub fn start(&self) -> Value {
         match &self.kind {
-            Kind::Real(quantity) => Value::Real(quantity.start),
-            Kind::Integer { start, .. } | Kind::Long { start, .. } | Kind::Enumeration { start, .. } => {
-                Value::Integer(*start)
-            }
+            Kind::Real(quantity) | Kind::Single(quantity) => Value::Real(quantity.start),
+            Kind::Integer { start, .. }
+            | Kind::Long { start, .. }
+            | Kind::Sized { start, .. }
+            | Kind::Enumeration { start, .. } => Value::Integer(*start),
+            Kind::Boolean { start } => Value::Integer((*start).into()),
+            Kind::Text { start } => Value::Integer(start.len() as i64),
+            Kind::Binary { start, .. } => Value::Integer(start.len() as i64),
         }
     }
 
     /// `value` as a text with the unit of this variable; of an enumeration its number.
     pub fn text(&self, value: Value) -> String {
         match (&self.kind, value) {
-            (Kind::Real(quantity), Value::Real(real)) => quantity.unit.format(real),
+            (Kind::Real(quantity) | Kind::Single(quantity), Value::Real(real)) => quantity.unit.format(real),
+            (Kind::Boolean { .. }, Value::Integer(integer)) => (integer != 0).to_string(),
+            (Kind::Text { .. } | Kind::Binary { .. }, Value::Integer(length)) => format!("{length} bytes"),
             _ => value.to_string(),
         }
     }
@@ -212,29 +135,39 @@ impl Variable {
     /// Value that `text` stands for; of an enumeration the name of an option or its number. The range is not checked.
     ///
     /// # Errors
-    /// Text of another kind, with what is expected.
+    /// Text of another kind, with what is expected; a text or binary variable, which is set as such.
     pub fn parse(&self, text: &str) -> Result<Value> {
         let value = match self.kind {
-            Kind::Real(_) => text.parse().map(Value::Real).ok(),
-            Kind::Integer { .. } | Kind::Long { .. } => text.parse().map(Value::Integer).ok(),
+            Kind::Real(_) | Kind::Single(_) => text.parse().map(Value::Real).ok(),
+            Kind::Integer { .. } | Kind::Long { .. } | Kind::Sized { .. } => text.parse().map(Value::Integer).ok(),
             Kind::Enumeration { options, .. } => {
                 let by_name = (1..).zip(options).find(|(_, (name, _))| *name == text);
                 let number = by_name.map(|(number, _)| number).or_else(|| text.parse().ok());
                 number.map(Value::Integer)
             }
+            Kind::Boolean { .. } => match text {
+                "true" | "1" => Some(Value::Integer(1)),
+                "false" | "0" => Some(Value::Integer(0)),
+                _ => None,
+            },
+            Kind::Text { .. } | Kind::Binary { .. } => None,
         };
         value.ok_or_else(|| {
             let digits = match self.kind {
-                Kind::Real(_) => "Write it with digits, such as 2 or 1.5e-3.",
+                Kind::Real(_) | Kind::Single(_) => "Write it with digits, such as 2 or 1.5e-3.",
                 _ => "Write it with digits alone, such as 2.",
             };
             let (allowed, remedy) = match self.kind {
-                Kind::Real(_) => ("a number".into(), digits),
-                Kind::Integer { .. } | Kind::Long { .. } => ("a whole number of 64 bits".into(), digits),
+                Kind::Real(_) | Kind::Single(_) => ("a number".into(), digits),
+                Kind::Integer { .. } | Kind::Long { .. } | Kind::Sized { .. } => {
+                    ("a whole number of 64 bits".into(), digits)
+                }
                 Kind::Enumeration { options, .. } => {
                     let names: Vec<&str> = options.iter().map(|(name, _)| *name).collect();
                     (format!("one of: {}", names.join(", ")), "Give an option by its name.")
                 }
+                Kind::Boolean { .. } => ("true or false".into(), "Write one of these."),
+                Kind::Text { .. } | Kind::Binary { .. } => ("no number".into(), AS_BYTES),
             };
             Error::parameter(&self.name, text, allowed, remedy)
         })
@@ -246,34 +179,53 @@ impl Variable {
     /// Another type, not finite, or out of range.
     pub fn check(&self, value: Value) -> Result<()> {
         let fits = match (&self.kind, value) {
-            (Kind::Real(quantity), Value::Real(real)) => {
+            (Kind::Real(quantity) | Kind::Single(quantity), Value::Real(real)) => {
                 real.is_finite() && (quantity.min..=quantity.max).contains(&real)
             }
-            (Kind::Integer { range, .. } | Kind::Long { range, .. }, Value::Integer(integer)) => {
+            (Kind::Integer { range, .. } | Kind::Long { range, .. } | Kind::Sized { range, .. }, Value::Integer(integer)) => {
                 range.contains(&integer)
             }
             (Kind::Enumeration { options, .. }, Value::Integer(integer)) => {
                 (1..=options.len() as i64).contains(&integer)
             }
-            (Kind::Real(_), Value::Integer(_)) | (_, Value::Real(_)) => false,
+            (Kind::Boolean { .. }, Value::Integer(integer)) => matches!(integer, 0 | 1),
+            (Kind::Text { .. } | Kind::Binary { .. }, _) => false,
+            (Kind::Real(_) | Kind::Single(_), Value::Integer(_)) | (_, Value::Real(_)) => false,
         };
         if fits { Ok(()) } else { Err(self.refusal(value)) }
+    }
+
+    /// Says whether `bytes` may be given to this variable, and if not, why and what to do.
+    ///
+    /// # Errors
+    /// It is no text and no binary variable; a text that is not UTF-8 or holds a zero byte, which would end it in C.
+    pub fn check_bytes(&self, bytes: &[u8]) -> Result<()> {
+        let (what, allowed, remedy) = match &self.kind {
+            Kind::Binary { .. } => return Ok(()),
+            Kind::Text { .. } if std::str::from_utf8(bytes).is_err() => ("bytes", "UTF-8", "Encode the text so."),
+            Kind::Text { .. } if bytes.contains(&0) => ("a text with a zero byte", "none", "Leave it out."),
+            Kind::Text { .. } => return Ok(()),
+            Kind::Boolean { .. } => ("a text", "true or false", "Set it as a boolean variable."),
+            _ => ("a text", "a number", "Set it as a variable of its type."),
+        };
+        Err(Error::parameter(&self.name, what, allowed, remedy))
     }
 
     #[cold]
     fn refusal(&self, value: Value) -> Error {
         let in_range = "Give a value in this range.";
         let (value, allowed, remedy) = match (&self.kind, value) {
-            (Kind::Real(quantity), Value::Real(real)) => {
+            (Kind::Real(quantity) | Kind::Single(quantity), Value::Real(real)) => {
                 let bounds = [quantity.min, quantity.max];
                 let allowed = match bounds.map(|bound| (bound.is_finite(), Value::Real(bound))) {
                     [(false, _), (false, _)] => "a finite number".into(),
                     [(true, low), (false, _)] => format!("a finite number, {low} or more"),
+                    [(false, _), (true, high)] => format!("a finite number, {high} or less"),
                     [(_, low), (_, high)] => format!("a finite number from {low} to {high}"),
                 };
                 (quantity.unit.format(real), allowed, in_range)
             }
-            (Kind::Integer { range, .. } | Kind::Long { range, .. }, Value::Integer(integer)) => {
+            (Kind::Integer { range, .. } | Kind::Long { range, .. } | Kind::Sized { range, .. }, Value::Integer(integer)) => {
                 let allowed = format!("a whole number from {} to {}", range.start(), range.end());
                 (integer.to_string(), allowed, in_range)
             }
@@ -284,7 +236,14 @@ impl Variable {
                 let allowed = format!("one of: {}", options.collect::<Vec<_>>().join(", "));
                 (integer.to_string(), allowed, "Give the number of an option.")
             }
-            (Kind::Real(_), Value::Integer(integer)) => (
+            (Kind::Boolean { .. }, _) => (
+                value.to_string(),
+                "true (1) or false (0)".into(),
+                "Set it as a boolean variable.",
+            ),
+            (Kind::Text { .. }, _) => (value.to_string(), "a text".into(), AS_BYTES),
+            (Kind::Binary { .. }, _) => (value.to_string(), "bytes".into(), AS_BYTES),
+            (Kind::Real(_) | Kind::Single(_), Value::Integer(integer)) => (
                 integer.to_string(),
                 "a real number".into(),
                 "Set it as a real variable.",
@@ -299,7 +258,10 @@ impl Variable {
     }
 }
 
-/// Distinguishes a table of variables from any other: FNV-1a, 64 bits, over the model's version, names, causalities, types, units, ranges,
+/// Remedy for numbers given to variables that hold none.
+const AS_BYTES: &str = "Set it as a text or as bytes.";
+
+/// Distinguishes a table of variables from any other: FNV-1a, 64 bits, over the model's version, names, causalities, types, units, ranges
 /// start values and what is tunable.
 pub fn fingerprint<'a>(version: &str, variables: impl IntoIterator<Item = &'a Variable>) -> u64 {
     let mut text = String::from(version);

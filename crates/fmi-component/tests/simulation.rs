@@ -49,8 +49,8 @@ fn a_model_sees_no_negative_zero() {
         })
         .collect();
     let mut values = row.values().clone();
-    values.put_back(&negative).unwrap();
-    assert!(values.same_fixed_parameters(&negative));
+    values.put_back(&negative, &[]).unwrap();
+    assert!(values.same_fixed_parameters(&negative, &[]));
     assert_eq!(values.real("frame.velocity").to_bits(), 0);
     for variable in row
         .variables()

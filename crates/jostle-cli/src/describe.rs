@@ -82,13 +82,16 @@ fn line(row: &Variable, run: usize) -> Vec<String> {
         "-".into()
     };
     let (unit, range) = match &row.kind {
-        Kind::Real(quantity) => (quantity.unit.name, real_range(quantity.min, quantity.max)),
-        Kind::Integer { range, .. } => ("integer", format!("{} to {}", range.start(), range.end())),
+        Kind::Real(quantity) | Kind::Single(quantity) => (quantity.unit.name, real_range(quantity.min, quantity.max)),
+        Kind::Integer { range, .. } | Kind::Sized { range, .. } => ("integer", format!("{} to {}", range.start(), range.end())),
         Kind::Enumeration { options, .. } => {
             let option = |(number, (name, _)): (i64, &(&str, &str))| format!("{number} {name}");
             let options: Vec<String> = (1..).zip(*options).map(option).collect();
             ("option", options.join(", "))
         }
+        Kind::Boolean { .. } => ("boolean", "true or false".into()),
+        Kind::Text { .. } => ("text", "any".into()),
+        Kind::Binary { .. } => ("binary", "any".into()),
         Kind::Long { range, .. } => ("64-bit integer", format!("{} to {}", range.start(), range.end())),
     };
     vec![name, row.role().into(), unit.into(), range, start, description]

@@ -47,7 +47,7 @@ impl Group<'_> {
     /// Name of the unit, `1` for pure numbers; nothing for whole numbers.
     pub fn unit(&self) -> &'static str {
         match &self.variable.kind {
-            Kind::Real(quantity) => quantity.unit.name,
+            Kind::Real(quantity) | Kind::Single(quantity) => quantity.unit.name,
             _ => "",
         }
     }

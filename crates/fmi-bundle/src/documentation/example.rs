@@ -91,7 +91,7 @@ fn oscillating(component: &Component) -> Vec<(&Variable, f64, Vec<&Variable>)> {
 
 fn unit(variable: &Variable) -> &'static str {
     match &variable.kind {
-        Kind::Real(quantity) => quantity.unit.name,
+        Kind::Real(quantity) | Kind::Single(quantity) => quantity.unit.name,
         _ => "",
     }
 }

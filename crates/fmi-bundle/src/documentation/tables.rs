@@ -74,7 +74,7 @@ fn row(component: &Component, group: &Group, shown: Shown) -> String {
         escape(group.unit())
     );
     if settable {
-        cells.push_str(&format!("<td class=\"number\">{}</td>", short(variable.start())));
+        cells.push_str(&format!("<td class=\"number\">{}</td>", start(variable)));
     }
     let description = group.description();
     cells.push_str(&format!("<td class=\"text\">{}</td>", escape(description.as_str())));
@@ -113,17 +113,27 @@ fn short(value: Value) -> Value {
     }
 }
 
+/// The start value, for the eye.
+fn start(variable: &Variable) -> String {
+    match &variable.kind {
+        Kind::Text { start } => escape(&**start).into_owned(),
+        Kind::Boolean { start } => start.to_string(),
+        Kind::Binary { start, .. } => format!("{} bytes", start.len()),
+        _ => short(variable.start()).to_string(),
+    }
+}
+
 /// What is allowed.
 fn range(variable: &Variable) -> String {
     let real = |end: f64| short(Value::Real(end));
     match &variable.kind {
-        Kind::Real(quantity) => match (quantity.min.is_finite(), quantity.max.is_finite()) {
+        Kind::Real(quantity) | Kind::Single(quantity) => match (quantity.min.is_finite(), quantity.max.is_finite()) {
             (true, true) => format!("{} to {}", real(quantity.min), real(quantity.max)),
             (true, false) => format!("from {}", real(quantity.min)),
             (false, true) => format!("to {}", real(quantity.max)),
             (false, false) => "any".into(),
         },
-        Kind::Integer { range, .. } | Kind::Long { range, .. } => format!("{} to {}", range.start(), range.end()),
+        Kind::Integer { range, .. } | Kind::Long { range, .. } | Kind::Sized { range, .. } => format!("{} to {}", range.start(), range.end()),
         Kind::Enumeration { options, .. } => {
             let line = |(number, (name, description)): (i64, &(&str, &str))| {
                 format!("{number} {}: {}", escape(*name), escape(*description))
@@ -131,6 +141,9 @@ fn range(variable: &Variable) -> String {
             let lines: Vec<String> = (1..).zip(*options).map(line).collect();
             lines.join("<br/>")
         }
+        Kind::Boolean { .. } => "true or false".into(),
+        Kind::Text { .. } => "any text".into(),
+        Kind::Binary { mime_type, .. } => format!("bytes, <code>{}</code>; FMI 3.0 only", escape(&**mime_type)),
     }
 }
 
@@ -144,7 +157,7 @@ pub fn symbols(component: &Component) -> String {
         }
         let unit = position.map(|position| &table.variables()[position].kind);
         let unit = match unit {
-            Some(Kind::Real(quantity)) => quantity.unit.name,
+            Some(Kind::Real(quantity) | Kind::Single(quantity)) => quantity.unit.name,
             _ => "",
         };
         let name = match symbol.variable {

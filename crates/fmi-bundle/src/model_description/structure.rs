@@ -4,7 +4,7 @@ use std::io;
 
 use fmi_component::{Causality, TIME, TIME_REFERENCE, Version, value_reference};
 
-use super::{Layout, index};
+use super::Layout;
 use crate::xml::{self, Attributes, Xml};
 
 /// Outputs and initial unknowns.
@@ -69,7 +69,8 @@ fn initial_dependencies(layout: &Layout<'_>, position: usize) -> Attributes {
     };
     let of_time = names.contains(&TIME).then_some(time);
     let table = layout.component.table();
-    let mut positions: Vec<usize> = names.iter().filter_map(|name| table.position(name)).collect();
+    let positions = names.iter().filter_map(|name| table.position(name));
+    let mut positions: Vec<usize> = positions.filter(|position| layout.lists(*position)).collect();
     positions.sort_unstable();
     positions.dedup();
     let others = positions.into_iter().map(|position| reference(layout, position).1);
@@ -80,7 +81,7 @@ fn initial_dependencies(layout: &Layout<'_>, position: usize) -> Attributes {
 /// What the variable at `position` is called by.
 fn reference(layout: &Layout<'_>, position: usize) -> (&'static str, String) {
     match layout.version {
-        Version::Two => ("index", index(position)),
+        Version::Two => ("index", layout.index(position)),
         Version::Three => ("valueReference", value_reference(position).to_string()),
     }
 }

@@ -11,7 +11,7 @@ use crate::xml::{self, Attributes, Xml, number};
 fn used_units(variables: &[Variable]) -> Vec<Unit> {
     let mut used = vec![Unit::SECOND];
     for variable in variables {
-        if let Kind::Real(quantity) = &variable.kind
+        if let Some(quantity) = variable.kind.quantity()
             && !used.contains(&quantity.unit)
         {
             used.push(quantity.unit);
@@ -65,6 +65,8 @@ pub struct RealType {
     unit: Unit,
     /// 1 is the value of the standard where none is written.
     nominal: f64,
+    /// Of 32 bits.
+    single: bool,
 }
 
 impl RealType {
@@ -72,17 +74,19 @@ impl RealType {
     pub const TIME: Self = Self {
         unit: Unit::SECOND,
         nominal: 1.0,
+        single: false,
     };
 
     /// Of a variable. A parameter needs no nominal value: it does not change, and its start value says how large it is.
-    pub fn of(causality: Causality, quantity: &Quantity) -> Self {
-        let nominal = match causality {
+    pub fn of(variable: &Variable, quantity: &Quantity) -> Self {
+        let nominal = match variable.causality {
             Causality::Parameter => 1.0,
             Causality::CalculatedParameter | Causality::Input | Causality::Output => quantity.nominal,
         };
         Self {
             unit: quantity.unit,
             nominal,
+            single: matches!(variable.kind, Kind::Single(_)),
         }
     }
 
@@ -92,9 +96,10 @@ impl RealType {
             unit if unit.name == Unit::ONE.name && unit.quantity.is_none() => "Number".into(),
             unit => declared_type(unit).unwrap_or_else(|| format!("Quantity in {}", shown(unit))),
         };
+        let size = if self.single { ", 32 bits" } else { "" };
         match self.nominal {
-            1.0 => unit,
-            nominal => format!("{unit}, nominal {}", number(nominal)),
+            1.0 => format!("{unit}{size}"),
+            nominal => format!("{unit}{size}, nominal {}", number(nominal)),
         }
     }
 
@@ -108,21 +113,17 @@ impl RealType {
 
 /// The types in use, in the order of their units and then of their nominal values.
 fn real_types(variables: &[Variable]) -> Vec<RealType> {
-    let of_all = variables.iter().filter_map(|variable| match &variable.kind {
-        Kind::Real(quantity) => Some(RealType::of(variable.causality, quantity)),
-        _ => None,
-    });
+    let of_all = variables.iter().filter_map(|variable| Some(RealType::of(variable, variable.kind.quantity()?)));
     let of_all: Vec<RealType> = [RealType::TIME].into_iter().chain(of_all).collect();
     let of_unit = |unit: Unit| {
-        let mut nominals: Vec<f64> = of_all
-            .iter()
-            .filter(|each| each.unit == unit)
-            .map(|each| each.nominal)
-            .collect();
+        let mut types: Vec<RealType> = of_all.iter().filter(|each| each.unit == unit).copied().collect();
         // The plain type first.
-        nominals.sort_by(|one, other| (*one != 1.0).cmp(&(*other != 1.0)).then(one.total_cmp(other)));
-        nominals.dedup();
-        nominals.into_iter().map(move |nominal| RealType { unit, nominal })
+        types.sort_by(|one, other| {
+            let plain = (one.single, one.nominal != 1.0).cmp(&(other.single, other.nominal != 1.0));
+            plain.then(one.nominal.total_cmp(&other.nominal))
+        });
+        types.dedup();
+        types
     };
     used_units(variables).into_iter().flat_map(of_unit).collect()
 }
@@ -141,7 +142,8 @@ pub fn type_definitions(xml: &mut Xml, variables: &[Variable], version: Version)
         }
         Version::Three => {
             for each in real_types(variables) {
-                xml::empty(xml, "Float64Type", &each.attributes())?;
+                let element = if each.single { "Float32Type" } else { "Float64Type" };
+                xml::empty(xml, element, &each.attributes())?;
             }
         }
     }

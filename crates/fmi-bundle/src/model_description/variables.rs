@@ -5,7 +5,7 @@ use std::io;
 use fmi_component::{Causality, Kind, TIME, TIME_REFERENCE, Variable, Version, value_reference};
 
 use super::types::{RealType, typed};
-use super::{Layout, index};
+use super::Layout;
 use crate::xml::{self, Attributes, Xml, number};
 
 /// All variables, the time first.
@@ -18,7 +18,7 @@ pub fn write(xml: &mut Xml, layout: &Layout<'_>) -> io::Result<()> {
         ("variability", "continuous".into()),
     ];
     let unit = typed(RealType::TIME, layout.version);
-    element(xml, layout.version, about_time, ("Real", "Float64"), unit, None)?;
+    element(xml, layout.version, about_time, ("Real", "Float64"), unit, Inner::None)?;
     layout
         .positions()
         .try_for_each(|position| write_variable(xml, layout, position))
@@ -51,38 +51,68 @@ fn write_variable(xml: &mut Xml, layout: &Layout<'_>, position: usize) -> io::Re
         Kind::Integer { .. } => ("Integer", "Int32"),
         Kind::Long { .. } => ("Integer", "Int64"),
         Kind::Enumeration { .. } => ("Enumeration", "Enumeration"),
+        Kind::Boolean { .. } => ("Boolean", "Boolean"),
+        Kind::Single(_) => ("Real", "Float32"),
+        Kind::Sized { size, .. } => ("Integer", size.name()),
+        Kind::Text { .. } => ("String", "String"),
+        Kind::Binary { .. } => ("", "Binary"), // FMI 2.0 leaves it out
     };
     let mut list = details(variable, layout.version);
     if let Some(integral) = layout.integrals[position] {
         let target = match layout.version {
-            Version::Two => index(integral),
+            Version::Two => layout.index(integral),
             Version::Three => value_reference(integral).to_string(),
         };
         list.push(("derivative", target));
     }
-    let dimension = array.then(|| layout.spans[position]);
-    element(xml, layout.version, about, kinds, list, dimension)
+    let inner = match variable.kind.start_bytes().filter(|_| variable.causality.is_settable()) {
+        _ if array => Inner::Dimension(layout.spans[position]),
+        Some(bytes) => Inner::Start(start_text(variable, bytes)),
+        None => Inner::None,
+    };
+    element(xml, layout.version, about, kinds, list, inner)
 }
 
-/// FMI 2.0 splits what FMI 3.0 writes in one element. `dimension` is the number of elements of an array.
+/// What FMI 3.0 writes inside of the element of a variable.
+enum Inner {
+    None,
+    /// Elements of an array.
+    Dimension(usize),
+    /// Start value of a text or, in hexadecimal digits, of a binary variable.
+    Start(String),
+}
+
+fn start_text(variable: &Variable, bytes: &[u8]) -> String {
+    match variable.kind {
+        Kind::Binary { .. } => bytes.iter().map(|byte| format!("{byte:02x}")).collect(),
+        _ => String::from_utf8_lossy(bytes).into_owned(),
+    }
+}
+
+/// FMI 2.0 splits what FMI 3.0 writes in one element.
 fn element(
     xml: &mut Xml,
     version: Version,
     mut about: Attributes,
     kinds: (&str, &str),
-    details: Attributes,
-    dimension: Option<usize>,
+    mut details: Attributes,
+    inner: Inner,
 ) -> io::Result<()> {
     match version {
-        Version::Two => xml::element(xml, "ScalarVariable", &about, |xml| xml::empty(xml, kinds.0, &details)),
+        Version::Two => {
+            if let Inner::Start(text) = inner {
+                details.push(("start", text));
+            }
+            xml::element(xml, "ScalarVariable", &about, |xml| xml::empty(xml, kinds.0, &details))
+        }
         Version::Three => {
             about.extend(details);
-            match dimension {
-                None => xml::empty(xml, kinds.1, &about),
-                Some(elements) => xml::element(xml, kinds.1, &about, |xml| {
-                    xml::empty(xml, "Dimension", &vec![("start", elements.to_string())])
-                }),
-            }
+            let (element, content) = match inner {
+                Inner::None => return xml::empty(xml, kinds.1, &about),
+                Inner::Dimension(elements) => ("Dimension", ("start", elements.to_string())),
+                Inner::Start(text) => ("Start", ("value", text)),
+            };
+            xml::element(xml, kinds.1, &about, |xml| xml::empty(xml, element, &vec![content]))
         }
     }
 }
@@ -121,8 +151,8 @@ fn details(variable: &Variable, version: Version) -> Attributes {
     let mut list = Attributes::new();
     let settable = variable.causality.is_settable();
     match &variable.kind {
-        Kind::Real(quantity) => {
-            list.extend(typed(RealType::of(variable.causality, quantity), version));
+        Kind::Real(quantity) | Kind::Single(quantity) => {
+            list.extend(typed(RealType::of(variable, quantity), version));
             let ends = [("min", quantity.min), ("max", quantity.max)];
             list.extend(
                 ends.into_iter()
@@ -134,7 +164,7 @@ fn details(variable: &Variable, version: Version) -> Attributes {
             }
             list.extend(settable.then(|| ("start", number(quantity.start))));
         }
-        Kind::Integer { range, start } | Kind::Long { range, start } => {
+        Kind::Integer { range, start } | Kind::Long { range, start } | Kind::Sized { range, start, .. } => {
             let narrow = |end: i64| match version {
                 Version::Two => end.clamp(i64::from(i32::MIN), i64::from(i32::MAX)),
                 Version::Three => end,
@@ -153,6 +183,10 @@ fn details(variable: &Variable, version: Version) -> Attributes {
             list.push(("max", options.len().to_string()));
             list.extend(settable.then(|| ("start", start.to_string())));
         }
+        Kind::Boolean { start } => list.extend(settable.then(|| ("start", start.to_string()))),
+        // Their start value is an element in FMI 3.0.
+        Kind::Text { .. } => {}
+        Kind::Binary { mime_type, .. } => list.push(("mimeType", mime_type.clone().into_owned())),
     }
     list
 }

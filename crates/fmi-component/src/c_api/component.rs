@@ -36,6 +36,8 @@ pub struct Component {
     warned: Vec<&'static str>,
     /// Values on their way to the importer, with room for all of them.
     pub reals: Vec<f64>,
+    /// Texts and bytes that the importer was handed pointers to: they live until the next call that hands out some.
+    pub lent: Vec<Vec<u8>>,
 }
 
 /// A step that the model could not do: asked for again, it is refused again.
@@ -45,6 +47,8 @@ struct RefusedStep {
     asked: (f64, f64),
     /// Inputs and parameters. With others it is another step.
     values: Vec<Value>,
+    /// Contents of texts and binary variables among them.
+    bytes: Vec<Vec<u8>>,
 }
 
 /// A call of an importer.
@@ -79,6 +83,7 @@ pub fn instantiate(
                 listener,
                 states: SavedStates::default(),
                 warned: Vec::new(),
+                lent: Vec::new(),
             };
             return Handle::hand_out(component).cast();
         }
@@ -236,7 +241,9 @@ impl Component {
 
     #[cold]
     fn note_refusal(&mut self, asked: (f64, f64), error: Error) -> Error {
-        let same = |step: &RefusedStep| step.asked == asked && step.values == self.instance.values();
+        let same = |step: &RefusedStep| {
+            step.asked == asked && step.values == self.instance.values() && step.bytes == self.instance.all_bytes()
+        };
         let repeated = self.refused.as_ref().is_some_and(same);
         match error {
             Error::Step {
@@ -253,7 +260,8 @@ impl Component {
             Error::Step { .. } => {
                 self.last_step = Status::Discard;
                 let values = self.instance.values().to_vec();
-                self.refused = Some(RefusedStep { asked, values });
+                let bytes = self.instance.all_bytes().to_vec();
+                self.refused = Some(RefusedStep { asked, values, bytes });
                 error
             }
             _ => {

@@ -1,6 +1,6 @@
 //! The macro that makes a library of a model: `fmi_component::export_fmu!(Pendulum);`
 
-/// Exports a [`Model`](crate::Model) as the 44 functions of FMI 2.0 and the 75 of FMI 3.0.
+/// Exports a [`Model`](crate::Model) or a struct with [`#[derive(Component)]`](derive@crate::Component) as the 44 functions of FMI 2.0 and the 75 of FMI 3.0.
 ///
 /// Use it once in a crate of type `cdylib`. The functions are in the modules `fmi2` and `fmi3` of that crate, too. All but the
 /// making of an instance call functions of this crate that are the same for every model. A constant of type
@@ -12,7 +12,7 @@ macro_rules! export_fmu {
         $crate::export_fmi3!($model);
     };
     ($model:ty) => {
-        $crate::export_fmu!(dyn $crate::ModelType::of::<$model>());
+        $crate::export_fmu!(dyn $crate::ModelType::of::<<$model as $crate::Export>::Model>());
     };
 }
 

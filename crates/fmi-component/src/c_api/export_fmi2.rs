@@ -14,10 +14,10 @@ macro_rules! export_fmi2 {
             use std::ffi::{c_char, c_int, c_void};
 
             use $crate::Instance;
-            use $crate::c_api::calls::{self, NO_DERIVATIVES, NO_MODEL_EXCHANGE, no_such_type, unsupported};
+            use $crate::c_api::calls::{self, NO_DERIVATIVES, NO_MODEL_EXCHANGE, unsupported};
             use $crate::c_api::fmi2::{self, SYNCHRONOUS};
             use $crate::c_api::values::{self, Arrays};
-            use $crate::c_api::{CallbackFunctions, Opaque, Status, free, states};
+            use $crate::c_api::{CallbackFunctions, Opaque, Status, contents, free, states};
             use $crate::instance::Access::AnyInteger;
             use $crate::life_cycle::Version::Two;
 
@@ -50,17 +50,19 @@ macro_rules! export_fmi2 {
                 fn fmi2GetReal(references: *const u32, count: usize, values: *mut f64) =
                     values::get_real(Arrays { references, count, values, length: count });
                 fn fmi2GetInteger(references: *const u32, count: usize, values: *mut c_int) =
-                    values::get_integer(Arrays { references, count, values, length: count }, AnyInteger);
-                fn fmi2GetBoolean(references: *const u32, count: usize, values: *mut c_int) = no_such_type(count);
+                    values::get_whole(Arrays { references, count, values, length: count }, AnyInteger);
+                fn fmi2GetBoolean(references: *const u32, count: usize, values: *mut c_int) =
+                    values::get_boolean(Arrays { references, count, values, length: count });
                 fn fmi2GetString(references: *const u32, count: usize, values: *mut *const c_char) =
-                    no_such_type(count);
+                    contents::get_text(Arrays { references, count, values, length: count });
                 fn fmi2SetReal(references: *const u32, count: usize, values: *const f64) =
                     values::set_real(Arrays { references, count, values, length: count });
                 fn fmi2SetInteger(references: *const u32, count: usize, values: *const c_int) =
-                    values::set_integer(Arrays { references, count, values, length: count }, AnyInteger);
-                fn fmi2SetBoolean(references: *const u32, count: usize, values: *const c_int) = no_such_type(count);
+                    values::set_whole(Arrays { references, count, values, length: count }, AnyInteger);
+                fn fmi2SetBoolean(references: *const u32, count: usize, values: *const c_int) =
+                    values::set_boolean(Arrays { references, count, values, length: count });
                 fn fmi2SetString(references: *const u32, count: usize, values: *const *const c_char) =
-                    no_such_type(count);
+                    contents::set_text(Arrays { references, count, values, length: count });
                 fn fmi2GetFMUstate(state: *mut Opaque) = states::get(state);
                 fn fmi2SetFMUstate(state: Opaque) = states::set(state);
                 fn fmi2FreeFMUstate(state: *mut Opaque) = states::free(state);

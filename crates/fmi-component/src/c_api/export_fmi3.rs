@@ -19,7 +19,7 @@ macro_rules! export_fmi3 {
             use $crate::c_api::values::{self, Arrays};
             use $crate::c_api::{
                 Boolean, ClockUpdate, Enumeration, Fmi3Log, IntermediateUpdate, Opaque, Preemption, Status, free,
-                states,
+                contents, states,
             };
             use $crate::instance::Access;
             use $crate::life_cycle::Version::Three;
@@ -65,62 +65,62 @@ macro_rules! export_fmi3 {
                 fn fmi3Terminate() = calls::transition(Instance::terminate);
                 fn fmi3Reset() = calls::reset();
                 fn fmi3GetFloat32(references: *const u32, count: usize, values: *mut f32, length: usize) =
-                    no_such_type(count);
+                    values::get_single(Arrays { references, count, values, length });
                 fn fmi3GetFloat64(references: *const u32, count: usize, values: *mut f64, length: usize) =
                     values::get_real(Arrays { references, count, values, length });
                 fn fmi3GetInt8(references: *const u32, count: usize, values: *mut i8, length: usize) =
-                    no_such_type(count);
+                    values::get_whole(Arrays { references, count, values, length }, Access::Int8);
                 fn fmi3GetUInt8(references: *const u32, count: usize, values: *mut u8, length: usize) =
-                    no_such_type(count);
+                    values::get_whole(Arrays { references, count, values, length }, Access::UInt8);
                 fn fmi3GetInt16(references: *const u32, count: usize, values: *mut i16, length: usize) =
-                    no_such_type(count);
+                    values::get_whole(Arrays { references, count, values, length }, Access::Int16);
                 fn fmi3GetUInt16(references: *const u32, count: usize, values: *mut u16, length: usize) =
-                    no_such_type(count);
+                    values::get_whole(Arrays { references, count, values, length }, Access::UInt16);
                 fn fmi3GetInt32(references: *const u32, count: usize, values: *mut i32, length: usize) =
-                    values::get_integer(Arrays { references, count, values, length }, Access::Integer);
+                    values::get_whole(Arrays { references, count, values, length }, Access::Integer);
                 fn fmi3GetUInt32(references: *const u32, count: usize, values: *mut u32, length: usize) =
-                    no_such_type(count);
+                    values::get_whole(Arrays { references, count, values, length }, Access::UInt32);
                 fn fmi3GetInt64(references: *const u32, count: usize, values: *mut i64, length: usize) =
-                    values::get_long(Arrays { references, count, values, length });
+                    values::get_whole(Arrays { references, count, values, length }, Access::Long);
                 fn fmi3GetUInt64(references: *const u32, count: usize, values: *mut u64, length: usize) =
-                    no_such_type(count);
+                    values::get_whole(Arrays { references, count, values, length }, Access::UInt64);
                 fn fmi3GetBoolean(references: *const u32, count: usize, values: *mut Boolean, length: usize) =
-                    no_such_type(count);
+                    values::get_boolean(Arrays { references, count, values, length });
                 fn fmi3GetString(references: *const u32, count: usize, values: *mut *const c_char, length: usize) =
-                    no_such_type(count);
+                    contents::get_text(Arrays { references, count, values, length });
                 fn fmi3GetBinary(
                     references: *const u32, count: usize, value_sizes: *mut usize, values: *mut *const u8,
                     length: usize,
-                ) = no_such_type(count);
+                ) = contents::get_binary(value_sizes, Arrays { references, count, values, length });
                 fn fmi3GetClock(references: *const u32, count: usize, values: *mut Boolean) = no_such_type(count);
                 fn fmi3SetFloat32(references: *const u32, count: usize, values: *const f32, length: usize) =
-                    no_such_type(count);
+                    values::set_single(Arrays { references, count, values, length });
                 fn fmi3SetFloat64(references: *const u32, count: usize, values: *const f64, length: usize) =
                     values::set_real(Arrays { references, count, values, length });
                 fn fmi3SetInt8(references: *const u32, count: usize, values: *const i8, length: usize) =
-                    no_such_type(count);
+                    values::set_whole(Arrays { references, count, values, length }, Access::Int8);
                 fn fmi3SetUInt8(references: *const u32, count: usize, values: *const u8, length: usize) =
-                    no_such_type(count);
+                    values::set_whole(Arrays { references, count, values, length }, Access::UInt8);
                 fn fmi3SetInt16(references: *const u32, count: usize, values: *const i16, length: usize) =
-                    no_such_type(count);
+                    values::set_whole(Arrays { references, count, values, length }, Access::Int16);
                 fn fmi3SetUInt16(references: *const u32, count: usize, values: *const u16, length: usize) =
-                    no_such_type(count);
+                    values::set_whole(Arrays { references, count, values, length }, Access::UInt16);
                 fn fmi3SetInt32(references: *const u32, count: usize, values: *const i32, length: usize) =
-                    values::set_integer(Arrays { references, count, values, length }, Access::Integer);
+                    values::set_whole(Arrays { references, count, values, length }, Access::Integer);
                 fn fmi3SetUInt32(references: *const u32, count: usize, values: *const u32, length: usize) =
-                    no_such_type(count);
+                    values::set_whole(Arrays { references, count, values, length }, Access::UInt32);
                 fn fmi3SetInt64(references: *const u32, count: usize, values: *const i64, length: usize) =
-                    values::set_long(Arrays { references, count, values, length });
+                    values::set_whole(Arrays { references, count, values, length }, Access::Long);
                 fn fmi3SetUInt64(references: *const u32, count: usize, values: *const u64, length: usize) =
-                    no_such_type(count);
+                    values::set_whole(Arrays { references, count, values, length }, Access::UInt64);
                 fn fmi3SetBoolean(references: *const u32, count: usize, values: *const Boolean, length: usize) =
-                    no_such_type(count);
+                    values::set_boolean(Arrays { references, count, values, length });
                 fn fmi3SetString(references: *const u32, count: usize, values: *const *const c_char, length: usize) =
-                    no_such_type(count);
+                    contents::set_text(Arrays { references, count, values, length });
                 fn fmi3SetBinary(
                     references: *const u32, count: usize, value_sizes: *const usize, values: *const *const u8,
                     length: usize,
-                ) = no_such_type(count);
+                ) = contents::set_binary(value_sizes, Arrays { references, count, values, length });
                 fn fmi3SetClock(references: *const u32, count: usize, values: *const Boolean) = no_such_type(count);
                 fn fmi3GetNumberOfVariableDependencies(reference: u32, count: *mut usize) =
                     unsupported(NO_DEPENDENCIES);

@@ -9,6 +9,7 @@
 
 pub mod calls;
 mod component;
+pub mod contents;
 pub mod fmi2;
 pub mod fmi3;
 mod listener;

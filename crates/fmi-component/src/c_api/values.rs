@@ -1,9 +1,12 @@
 //! Values of variables: getters and setters of every type, alike in both versions but for the names of the functions.
 
+use std::fmt::Display;
+
 use super::component::{Component, Entry};
 use super::types::Status;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::instance::{Access, Instance, does_not_fit};
+use crate::life_cycle::Version;
 use crate::memory;
 use crate::value::Value;
 
@@ -26,25 +29,42 @@ pub struct Arrays<T> {
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn get_real(entry: Entry, arrays: Arrays<*mut f64>) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.read(|component| component.get_reals(arrays)) }
+    unsafe { entry.read(|component| component.get_reals(arrays, real_of(entry))) }
 }
 
-/// `fmi2GetInteger`, `fmi3GetInt32`.
+/// `fmi3GetFloat32`.
 ///
 /// # Safety
 /// As for [`Entry::change`] and [`Arrays`].
-pub unsafe fn get_integer(entry: Entry, arrays: Arrays<*mut i32>, access: Access) -> Status {
+pub unsafe fn get_single(entry: Entry, arrays: Arrays<*mut f32>) -> Status {
+    let read = |instance: &mut Instance, _, reference, offset| {
+        let value = instance.element(reference, offset, Access::Single)?;
+        Ok(value.to_f64() as f32)
+    };
+    // SAFETY: passed on.
+    unsafe { entry.read(|component| component.fill(arrays, read)) }
+}
+
+/// `fmi2GetInteger` and the getters of whole numbers of FMI 3.0.
+///
+/// # Safety
+/// As for [`Entry::change`] and [`Arrays`].
+pub unsafe fn get_whole<T: TryFrom<i64>>(entry: Entry, arrays: Arrays<*mut T>, access: Access) -> Status {
     // SAFETY: passed on.
     unsafe { entry.read(|component| component.get_whole(arrays, access)) }
 }
 
-/// `fmi3GetInt64`.
+/// `fmi2GetBoolean` with `T = c_int`, `fmi3GetBoolean` with a byte.
 ///
 /// # Safety
 /// As for [`Entry::change`] and [`Arrays`].
-pub unsafe fn get_long(entry: Entry, arrays: Arrays<*mut i64>) -> Status {
+pub unsafe fn get_boolean<T: From<bool>>(entry: Entry, arrays: Arrays<*mut T>) -> Status {
+    let read = |instance: &mut Instance, _, reference, offset| {
+        let value = instance.element(reference, offset, Access::Boolean)?;
+        Ok(T::from(value != Value::Integer(0)))
+    };
     // SAFETY: passed on.
-    unsafe { entry.read(|component| component.get_whole(arrays, Access::Long)) }
+    unsafe { entry.read(|component| component.fill(arrays, read)) }
 }
 
 /// `fmi2SetReal`, `fmi3SetFloat64`.
@@ -53,25 +73,61 @@ pub unsafe fn get_long(entry: Entry, arrays: Arrays<*mut i64>) -> Status {
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn set_real(entry: Entry, arrays: Arrays<*const f64>) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.set(|component| component.set(arrays, Access::Real, Value::Real)) }
+    unsafe { entry.set(|component| component.set(arrays, real_of(entry), |value| Ok(Value::Real(value)))) }
 }
 
-/// `fmi2SetInteger`, `fmi3SetInt32`.
+/// `fmi3SetFloat32`.
 ///
 /// # Safety
 /// As for [`Entry::change`] and [`Arrays`].
-pub unsafe fn set_integer(entry: Entry, arrays: Arrays<*const i32>, access: Access) -> Status {
+pub unsafe fn set_single(entry: Entry, arrays: Arrays<*const f32>) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.set(|component| component.set(arrays, access, |value| Value::Integer(value.into()))) }
+    unsafe { entry.set(|component| component.set(arrays, Access::Single, |value| Ok(Value::Real(value.into())))) }
 }
 
-/// `fmi3SetInt64`.
+/// `fmi2SetInteger` and the setters of whole numbers of FMI 3.0.
 ///
 /// # Safety
 /// As for [`Entry::change`] and [`Arrays`].
-pub unsafe fn set_long(entry: Entry, arrays: Arrays<*const i64>) -> Status {
+pub unsafe fn set_whole<T: TryInto<i64> + Copy + Display>(
+    entry: Entry,
+    arrays: Arrays<*const T>,
+    access: Access,
+) -> Status {
+    let convert = |value: T| {
+        let held = value.try_into().map_err(|_| above_what_is_held(&value.to_string()));
+        held.map(Value::Integer)
+    };
     // SAFETY: passed on.
-    unsafe { entry.set(|component| component.set(arrays, Access::Long, Value::Integer)) }
+    unsafe { entry.set(|component| component.set(arrays, access, convert)) }
+}
+
+/// `fmi2SetBoolean` with `T = c_int`, `fmi3SetBoolean` with a byte. Anything but 0 is true, as in C.
+///
+/// # Safety
+/// As for [`Entry::change`] and [`Arrays`].
+pub unsafe fn set_boolean<T: Default + PartialEq + Copy>(entry: Entry, arrays: Arrays<*const T>) -> Status {
+    let convert = |value: T| Ok(Value::from(value != T::default()));
+    // SAFETY: passed on.
+    unsafe { entry.set(|component| component.set(arrays, Access::Boolean, convert)) }
+}
+
+/// FMI 2.0 has one type of reals.
+fn real_of(entry: Entry) -> Access {
+    match entry.version {
+        Version::Two => Access::AnyReal,
+        Version::Three => Access::Real,
+    }
+}
+
+#[cold]
+fn above_what_is_held(value: &str) -> Error {
+    Error::parameter(
+        "value of a UInt64",
+        value,
+        "at most 9223372036854775807, since whole numbers are held with a sign",
+        "Give a smaller one.",
+    )
 }
 
 /// `fmi2GetRealOutputDerivatives`, `fmi3GetOutputDerivatives`.
@@ -114,11 +170,11 @@ impl Component {
     ///
     /// # Errors
     /// Bad pointers, wrong lengths, unknown references, other types, not computed yet.
-    unsafe fn get_reals(&mut self, arrays: Arrays<*mut f64>) -> Result<()> {
+    unsafe fn get_reals(&mut self, arrays: Arrays<*mut f64>, access: Access) -> Result<()> {
         // SAFETY: by the caller's promise.
         let (references, mut values) = unsafe { self.request(arrays) }?;
         self.reals.resize(arrays.length, 0.0);
-        self.instance.get_reals(references, &mut self.reals)?;
+        self.instance.get_reals(references, &mut self.reals, access)?;
         values.write_all(&self.reals);
         Ok(())
     }
@@ -143,7 +199,7 @@ impl Component {
     ///
     /// # Safety
     /// As for [`Arrays`].
-    unsafe fn request<'a, T>(&self, arrays: Arrays<*mut T>) -> Result<(&'a [u32], memory::Output<T>)> {
+    pub(super) unsafe fn request<'a, T>(&self, arrays: Arrays<*mut T>) -> Result<(&'a [u32], memory::Output<T>)> {
         // SAFETY: by the caller's promise.
         let references = unsafe { memory::slice(arrays.references, arrays.count, "the array of value references") }?;
         // SAFETY: by the caller's promise.
@@ -188,14 +244,17 @@ impl Component {
         &mut self,
         arrays: Arrays<*const T>,
         access: Access,
-        convert: impl Fn(T) -> Value,
+        convert: impl Fn(T) -> Result<Value>,
     ) -> Result<()> {
         memory::check_length(arrays.length, arrays.count, "the array of values")?;
         // SAFETY: by the caller's promise.
         let references = unsafe { memory::slice(arrays.references, arrays.count, "the array of value references") }?;
         // SAFETY: by the caller's promise.
         let values = unsafe { memory::slice(arrays.values, arrays.count, "the array of values") }?;
-        self.instance.set(references, access, |index| convert(values[index]))
+        // Values that cannot be held are refused before any is stored; it costs nothing where all can.
+        values.iter().try_for_each(|value| convert(*value).map(|_| ()))?;
+        let convert = |index: usize| convert(values[index]).unwrap_or(Value::Integer(0));
+        self.instance.set(references, access, convert)
     }
 }
 

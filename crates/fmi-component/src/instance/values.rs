@@ -3,15 +3,16 @@
 use super::Instance;
 use crate::arrays;
 use crate::error::{Error, Result};
+use crate::kind::{Kind, WholeSize};
 use crate::life_cycle::Phase;
 use crate::standard::TIME_REFERENCE;
 use crate::value::Value;
-use crate::variable::{Causality, Kind, Variable};
+use crate::variable::{Causality, Variable};
 
 /// The type by which an importer reads or writes a variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Access {
-    /// `fmi2Real`, `fmi3Float64`.
+    /// `fmi3Float64`.
     Real,
     /// `fmi3Int32`.
     Integer,
@@ -19,19 +20,74 @@ pub enum Access {
     Long,
     /// `fmi2Integer`, which serves all whole numbers.
     AnyInteger,
+    /// `fmi2Real`, which serves reals of either size.
+    AnyReal,
+    /// `fmi3Float32`.
+    Single,
+    /// `fmi3Int8`.
+    Int8,
+    /// `fmi3UInt8`.
+    UInt8,
+    /// `fmi3Int16`.
+    Int16,
+    /// `fmi3UInt16`.
+    UInt16,
+    /// `fmi3UInt32`.
+    UInt32,
+    /// `fmi3UInt64`.
+    UInt64,
+    /// `fmi2Boolean`, `fmi3Boolean`.
+    Boolean,
+    /// `fmi2String`, `fmi3String`.
+    Text,
+    /// `fmi3Binary`.
+    Binary,
 }
 
 impl Access {
+    const ALL: [Self; 15] = [
+        Self::Real,
+        Self::Integer,
+        Self::Long,
+        Self::AnyInteger,
+        Self::AnyReal,
+        Self::Single,
+        Self::Int8,
+        Self::UInt8,
+        Self::Int16,
+        Self::UInt16,
+        Self::UInt32,
+        Self::UInt64,
+        Self::Boolean,
+        Self::Text,
+        Self::Binary,
+    ];
+
     /// A count or an option among the outputs may be read as a real too: there are importers that read all outputs so.
     fn fits(self, variable: &Variable) -> bool {
+        let is_real = matches!(self, Self::Real | Self::AnyReal);
+        let read_as_real = is_real && variable.causality == Causality::Output;
         match variable.kind {
-            Kind::Real(_) => self == Self::Real,
-            Kind::Integer { .. } => {
-                matches!(self, Self::Integer | Self::AnyInteger)
-                    || self == Self::Real && variable.causality == Causality::Output
-            }
-            Kind::Enumeration { .. } if self == Self::Real => variable.causality == Causality::Output,
-            Kind::Long { .. } | Kind::Enumeration { .. } => matches!(self, Self::Long | Self::AnyInteger),
+            Kind::Real(_) => is_real,
+            Kind::Single(_) => matches!(self, Self::Single | Self::AnyReal),
+            Kind::Integer { .. } => matches!(self, Self::Integer | Self::AnyInteger) || read_as_real,
+            Kind::Enumeration { .. } => matches!(self, Self::Long | Self::AnyInteger) || read_as_real,
+            Kind::Long { .. } => matches!(self, Self::Long | Self::AnyInteger),
+            Kind::Sized { size, .. } => self == Self::AnyInteger || self == Self::of(size),
+            Kind::Boolean { .. } => self == Self::Boolean,
+            Kind::Text { .. } => self == Self::Text,
+            Kind::Binary { .. } => self == Self::Binary,
+        }
+    }
+
+    fn of(size: WholeSize) -> Self {
+        match size {
+            WholeSize::Int8 => Self::Int8,
+            WholeSize::UInt8 => Self::UInt8,
+            WholeSize::Int16 => Self::Int16,
+            WholeSize::UInt16 => Self::UInt16,
+            WholeSize::UInt32 => Self::UInt32,
+            WholeSize::UInt64 => Self::UInt64,
         }
     }
 }
@@ -41,7 +97,7 @@ pub(super) struct Slot {
     /// Elements of the variable: 1 for a scalar, 0 inside of an array.
     span: usize,
     /// Bit n is set if access number n fits.
-    accesses: u8,
+    accesses: u16,
     computed: bool,
     /// Of a [`Kind::Real`].
     real: bool,
@@ -54,12 +110,11 @@ impl Slot {
             true => arrays::spans(variables),
             false => vec![1; variables.len()],
         };
-        let all = [Access::Real, Access::Integer, Access::Long, Access::AnyInteger];
         let slot = |(variable, span): (&Variable, usize)| Self {
             span,
-            accesses: all
+            accesses: Access::ALL
                 .iter()
-                .map(|access| u8::from(access.fits(variable)) << *access as u8)
+                .map(|access| u16::from(access.fits(variable)) << *access as u16)
                 .sum(),
             computed: !variable.causality.is_settable(),
             real: matches!(variable.kind, Kind::Real(_)),
@@ -106,19 +161,19 @@ impl Instance {
     /// As [`Instance::get`].
     #[inline]
     pub fn element(&mut self, reference: u32, offset: usize, access: Access) -> Result<Value> {
-        if reference == TIME_REFERENCE && access == Access::Real {
+        if reference == TIME_REFERENCE && matches!(access, Access::Real | Access::AnyReal) {
             return Ok(Value::Real(self.time()));
         }
         let position = self.position(reference, access)? + offset;
         self.read(position)
     }
 
-    /// Reads variables as reals into `out`, which has as many elements as they have. Reals whose references follow one another
-    /// are read in one go.
+    /// Reads variables as reals into `out`, which has as many elements as they have, by [`Access::Real`] or [`Access::AnyReal`]. Reals
+    /// whose references follow one another are read in one go.
     ///
     /// # Errors
     /// As [`Instance::get`]; a whole number that does not fit 32 bits.
-    pub fn get_reals(&mut self, references: &[u32], out: &mut [f64]) -> Result<()> {
+    pub fn get_reals(&mut self, references: &[u32], out: &mut [f64], access: Access) -> Result<()> {
         let (mut references, mut out) = (references, out);
         while let [reference, ..] = *references {
             let (mut count, mut elements) = self.run_of_reals(references);
@@ -129,7 +184,7 @@ impl Instance {
             } else {
                 (count, elements) = (1, self.span(reference));
                 for (offset, real) in out[..elements].iter_mut().enumerate() {
-                    *real = match self.element(reference, offset, Access::Real)? {
+                    *real = match self.element(reference, offset, access)? {
                         Value::Real(real) => real,
                         Value::Integer(integer) => i32::try_from(integer)
                             .map_err(|_| does_not_fit(reference, Value::Integer(integer)))?
@@ -226,6 +281,41 @@ impl Instance {
         self.set_positions(references.len(), position, value)
     }
 
+    /// Contents of the text or binary variable behind `reference`.
+    ///
+    /// # Errors
+    /// As [`Instance::get`].
+    pub fn get_bytes(&mut self, reference: u32, access: Access) -> Result<&[u8]> {
+        let position = self.position(reference, access)?;
+        self.check_readable(position)?;
+        self.simulation.bytes(position)
+    }
+
+    /// Stores the contents of texts or binary variables or, if one of them is refused, none.
+    ///
+    /// # Errors
+    /// As [`Instance::set`]; a text that holds a zero byte.
+    pub fn set_bytes(&mut self, references: &[u32], access: Access, contents: &[&[u8]]) -> Result<()> {
+        for (reference, bytes) in references.iter().zip(contents) {
+            let variable = &self.table.variables()[self.position(*reference, access)?];
+            self.check_settable(variable)?;
+            variable.check_bytes(bytes)?;
+        }
+        self.forget_model(references.len());
+        for (reference, bytes) in references.iter().zip(contents) {
+            let position = self.position(*reference, access)?;
+            self.simulation.set_bytes_at(position, bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Before `count` values are stored: a model of the old ones may have been built for reading outputs in initialization mode.
+    fn forget_model(&mut self, count: usize) {
+        if self.phase == Phase::Initialization && count > 0 {
+            self.simulation.stop();
+        }
+    }
+
     /// Stores `count` values where `position` says, or none if one is refused.
     fn set_positions(
         &mut self,
@@ -238,9 +328,7 @@ impl Instance {
             self.check_settable(variable)?;
             variable.check(value(index))?;
         }
-        if self.phase == Phase::Initialization && count > 0 {
-            self.simulation.stop(); // a model of the old values may have been built for reading outputs
-        }
+        self.forget_model(count);
         for index in 0..count {
             let position = position(self, index)?;
             self.simulation.set_at(position, value(index))?;
@@ -359,7 +447,16 @@ fn of_another_type(variable: &Variable, reference: u32) -> Error {
         Kind::Integer { .. } => "32-bit integer (Integer, Int32)",
         Kind::Long { .. } => "64-bit integer (Integer, Int64)",
         Kind::Enumeration { .. } => "enumeration (Integer, Int64)",
+        Kind::Boolean { .. } => "boolean (Boolean)",
+        Kind::Single(_) => "32-bit real (Real, Float32)",
+        Kind::Sized { size, .. } => return refused_type(variable, reference, &format!("integer (Integer, {})", size.name())),
+        Kind::Text { .. } => "text (String)",
+        Kind::Binary { .. } => "binary (Binary)",
     };
+    refused_type(variable, reference, kind)
+}
+
+fn refused_type(variable: &Variable, reference: u32, kind: &str) -> Error {
     Error::call(
         format!("{} (value reference {reference}) is of type {kind}", variable.name),
         "Call the function of this type.",

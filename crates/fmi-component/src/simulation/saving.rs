@@ -19,6 +19,8 @@ pub struct Saved<State> {
     time: f64,
     values: Vec<Value>,
     tuned: Tuned,
+    /// Contents of texts and binary variables.
+    bytes: Vec<Vec<u8>>,
     state: Option<State>,
 }
 
@@ -40,6 +42,7 @@ impl<M: Model> Simulation<M> {
                 true => self.tuned.clone(),
                 false => Tuned::default(),
             },
+            bytes: self.values.all_bytes().to_vec(),
             state: self.model.as_ref().map(M::state),
         }
     }
@@ -58,11 +61,11 @@ impl<M: Model> Simulation<M> {
                 Self::restore_tuned(model, state, &self.values, (&self.tuned, &saved.tuned))?;
             }
             (Some(state), None) => {
-                let values = self.values.with_all(&saved.values);
+                let values = self.values.with_all(&saved.values, &saved.bytes);
                 self.model = Some(self.build_tuned(saved.start, state, &values, &saved.tuned)?);
             }
         }
-        self.values.put_back(&saved.values)?;
+        self.values.put_back(&saved.values, &saved.bytes)?;
         if saved.is_started() && !known {
             self.tuned.clone_from(&saved.tuned);
             self.judge_parameters();
@@ -86,10 +89,10 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// They cannot.
     pub fn check(&self, saved: &Saved<M::State>) -> Result<()> {
-        self.values.check_all(&saved.values)?;
+        self.values.check_all(&saved.values, &saved.bytes)?;
         saved
             .tuned
-            .check(&self.values.with_all(&saved.values), saved.is_started())?;
+            .check(&self.values.with_all(&saved.values, &saved.bytes), saved.is_started())?;
         let Saved { start, time, state, .. } = saved;
         if !(is_simulated(*start) && is_simulated(*time) && time >= start) {
             return Err(Error::state(

@@ -13,6 +13,8 @@ use crate::values::Values;
 pub struct Tuned {
     /// All parameters and inputs that the model was built from.
     at_start: Vec<Value>,
+    /// Contents of the texts and binary variables among them.
+    bytes_at_start: Vec<Vec<u8>>,
     /// Tunable parameters that it has now, in the order of [`Table::tunable`](crate::Table::tunable). One that was set since the last
     /// step has another value among the [`Values`].
     now: Vec<Value>,
@@ -23,13 +25,14 @@ impl Tuned {
     pub fn of(values: &Values) -> Self {
         Self {
             at_start: values.as_slice().to_vec(),
+            bytes_at_start: values.all_bytes().to_vec(),
             now: values.tunable(),
         }
     }
 
     /// Whether a model that was built from one is one that was built from the other.
     pub fn is_of_the_same_start(&self, other: &Self) -> bool {
-        self.at_start == other.at_start
+        self.at_start == other.at_start && self.bytes_at_start == other.bytes_at_start
     }
 
     /// Says whether these can be those of a model that has started, if it has, and has parameters and inputs `values` now.
@@ -44,8 +47,8 @@ impl Tuned {
                 false => damaged("it holds values of a model that has not started"),
             };
         }
-        values.check_all(&self.at_start)?;
-        if !values.same_fixed_parameters(&self.at_start) {
+        values.check_all(&self.at_start, &self.bytes_at_start)?;
+        if !values.same_fixed_parameters(&self.at_start, &self.bytes_at_start) {
             return damaged("it started with other parameters");
         }
         let table = values.table();
@@ -112,7 +115,7 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// The values or the state do not fit.
     pub(super) fn build_tuned(&self, start: f64, state: &M::State, values: &Values, tuned: &Tuned) -> Result<M> {
-        let at_start = values.with_all(&tuned.at_start);
+        let at_start = values.with_all(&tuned.at_start, &tuned.bytes_at_start);
         let mut model = self.build(start, &at_start)?;
         let as_built = Tuned::of(&at_start);
         Self::restore_tuned(&mut model, state, values, (&as_built, tuned))?;
@@ -121,7 +124,7 @@ impl<M: Model> Simulation<M> {
 
     /// Notes which parameters of the model are outside of their recommended ranges.
     pub(super) fn judge_parameters(&mut self) {
-        let at_start = self.values.with_all(&self.tuned.at_start);
+        let at_start = self.values.with_all(&self.tuned.at_start, &self.tuned.bytes_at_start);
         self.outside = outside::warnings(&at_start);
         if self.tuned.now != at_start.tunable() {
             let now = self.values.with_tunable(&self.tuned.now);

@@ -68,9 +68,11 @@ impl Column {
     /// The column of a variable.
     pub fn of(variable: &Variable) -> Self {
         let content = match &variable.kind {
-            Kind::Real(_) => Content::Real,
-            Kind::Long { .. } => Content::Long,
-            Kind::Integer { .. } | Kind::Enumeration { .. } => Content::Integer,
+            Kind::Real(_) | Kind::Single(_) => Content::Real,
+            Kind::Long { .. } | Kind::Sized { .. } => Content::Long,
+            Kind::Integer { .. } | Kind::Enumeration { .. } | Kind::Boolean { .. } => Content::Integer,
+            // Their lengths: no scene has any.
+            Kind::Text { .. } | Kind::Binary { .. } => Content::Long,
         };
         Self {
             name: variable.name.clone(),

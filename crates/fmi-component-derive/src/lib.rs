@@ -1,0 +1,38 @@
+//! The derive macros of `fmi-component`: a struct whose fields are the variables in, its table of variables and its state out.
+//!
+//! Needs: a struct with named fields. Guarantees: what it cannot translate is an error at the attribute or field, which says
+//! what to write. Not here: what the generated code calls (`fmi_component::derived`).
+//!
+//! ```text
+//! attributes -> field (role, type, facts) -> rows, start, inputs, state
+//! ```
+
+mod component;
+mod enumeration;
+mod facts;
+mod field;
+mod rows;
+mod shape;
+mod text;
+mod unit;
+
+use proc_macro::TokenStream;
+use syn::{DeriveInput, parse_macro_input};
+
+/// Makes a component of a struct: see `fmi_component::Component`.
+#[proc_macro_derive(Component, attributes(component, parameter, calculated, input, output, state))]
+pub fn derive_component(input: TokenStream) -> TokenStream {
+    let input = parse_macro_input!(input as DeriveInput);
+    component::expand(&input)
+        .unwrap_or_else(|error| error.to_compile_error())
+        .into()
+}
+
+/// Makes the options of a variable of an `enum` without fields: see `fmi_component::Enumeration`.
+#[proc_macro_derive(Enumeration, attributes(enumeration))]
+pub fn derive_enumeration(input: TokenStream) -> TokenStream {
+    let input = parse_macro_input!(input as DeriveInput);
+    enumeration::expand(&input)
+        .unwrap_or_else(|error| error.to_compile_error())
+        .into()
+}

@@ -1,0 +1,194 @@
+//! A component from a plain struct: the fields are its variables and its state, one function is its step.
+//!
+//! Needs: a struct with `#[derive(Component)]` and an `impl CoSimulation`. Guarantees: a step that is refused leaves the fields
+//! as they were; saved states hold all fields. Not here: models whose variables depend on choices ([`Model`]), the macro
+//! (`fmi-component-derive`), what it calls ([`derived`](crate::derived)).
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::derived::Given;
+use crate::error::Result;
+use crate::info::ModelInfo;
+use crate::model::{Model, Reached, Warning};
+use crate::row::Row;
+use crate::step::{Events, MOST_POINTS, Step};
+use crate::structure::StructuralParameters;
+use crate::values::Values;
+
+/// A struct whose fields are variables: implemented by [`#[derive(Component)]`](derive@crate::Component), never by hand.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no component",
+    note = "write #[derive(Component)] above the struct"
+)]
+pub trait Component: Sized + Send + 'static {
+    /// All fields, as saved states hold them.
+    type State: Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static;
+
+    /// Facts of the model.
+    fn info() -> ModelInfo;
+
+    /// The variables, parameters and inputs first.
+    fn rows() -> Vec<Row<ComponentModel<Self>>>;
+
+    /// A new component: parameters and inputs from `values`, the rest from the start values.
+    fn first(values: &mut Given<'_>) -> Self;
+
+    /// Takes the inputs from `values`.
+    fn take(&mut self, values: &mut Given<'_>);
+
+    /// A copy of all fields.
+    fn save(&self) -> Self::State;
+
+    /// Goes to a saved state.
+    ///
+    /// # Errors
+    /// An array has another length: the state is damaged.
+    fn load(&mut self, state: &Self::State) -> Result<()>;
+}
+
+/// What a component does: written by its author.
+///
+/// Before each call the fields of the inputs hold what the importer has set; those of the parameters have it since
+/// [`CoSimulation::initialize`]. An error or a panic leaves the component as it was before the call.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no step",
+    note = "write impl CoSimulation for {Self} {{ fn do_step(&mut self, step: &mut Step) -> Result<()> {{ .. }} }}"
+)]
+pub trait CoSimulation: Component {
+    /// The component has events: it calls [`Step::stop_at_event`].
+    const EVENTS: bool = false;
+
+    /// Computes what depends on parameters and inputs before the first step. Fields hold their start values.
+    ///
+    /// # Errors
+    /// Parameters that do not go together: [`Error::parameter`](crate::Error::parameter).
+    fn initialize(&mut self, _start_time: f64) -> Result<()> {
+        Ok(())
+    }
+
+    /// Advances all fields from the beginning of `step` to its end, or to an event if [`Step::stop_at_event`] says so.
+    ///
+    /// # Errors
+    /// The step cannot be done: [`Error::Step`](crate::Error::Step), which lets the importer try a shorter one.
+    fn do_step(&mut self, step: &mut Step) -> Result<()>;
+
+    /// What is doubtful about the run so far: see [`Model::warnings`].
+    fn warnings(&self, _told: &[&'static str]) -> Vec<Warning> {
+        Vec::new()
+    }
+}
+
+/// The [`Model`] of a component: it with its time.
+#[derive(Debug)]
+pub struct ComponentModel<C> {
+    component: C,
+    start: f64,
+    time: f64,
+    most_points: u64,
+}
+
+impl<C> ComponentModel<C> {
+    /// The component as it is now.
+    pub fn component(&self) -> &C {
+        &self.component
+    }
+}
+
+impl<C: CoSimulation> ComponentModel<C> {
+    /// A step to `end`; the component is as before if it is refused.
+    fn step(&mut self, end: f64, values: &Values, events: Events) -> Result<Reached> {
+        let before = self.component.save();
+        self.component.take(&mut Given::new(values));
+        let mut step = Step::new([self.start, self.time, end], C::info().name, self.most_points, events);
+        if let Err(refused) = self.component.do_step(&mut step) {
+            self.component.load(&before)?;
+            return Err(refused);
+        }
+        let event = step.event();
+        self.time = event.unwrap_or(end);
+        Ok(Reached {
+            time: self.time,
+            event: event.is_some(),
+        })
+    }
+}
+
+impl<C: CoSimulation> Model for ComponentModel<C> {
+    /// Time \[s\] and fields.
+    type State = (f64, C::State);
+
+    const EVENTS: bool = C::EVENTS;
+
+    fn info() -> ModelInfo {
+        C::info()
+    }
+
+    fn variables(_: &StructuralParameters) -> Vec<Row<Self>> {
+        C::rows()
+    }
+
+    fn new(_: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
+        let mut component = C::first(&mut Given::new(values));
+        component.initialize(start_time)?;
+        Ok(Self {
+            component,
+            start: start_time,
+            time: start_time,
+            most_points: MOST_POINTS,
+        })
+    }
+
+    fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {
+        let events = if C::EVENTS { Events::OnTheWay } else { Events::None };
+        self.step(end_time, values, events).map(|_| ())
+    }
+
+    fn advance_to_event(&mut self, end_time: f64, values: &Values) -> Result<Reached> {
+        let events = if C::EVENTS { Events::Stop } else { Events::None };
+        self.step(end_time, values, events)
+    }
+
+    fn limit_work(&mut self, most: u64) {
+        self.most_points = most;
+    }
+
+    fn warnings(&self, told: &[&'static str]) -> Vec<Warning> {
+        self.component.warnings(told)
+    }
+
+    fn state(&self) -> Self::State {
+        (self.time, self.component.save())
+    }
+
+    fn time_of(state: &Self::State) -> f64 {
+        state.0
+    }
+
+    fn restore(&mut self, state: &Self::State) -> Result<()> {
+        let before = self.component.save();
+        if let Err(refused) = self.component.load(&state.1) {
+            self.component.load(&before)?;
+            return Err(refused);
+        }
+        self.time = state.0;
+        Ok(())
+    }
+}
+
+/// What [`export_fmu!`](crate::export_fmu) exports: any [`Model`], or a struct with `#[derive(Component)]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no model",
+    note = "write #[derive(Component)] above the struct, or implement fmi_component::Model"
+)]
+pub trait Export {
+    /// Its model.
+    type Model: Model;
+
+    /// Name of the library that cargo makes of its crate, where that is known.
+    const LIBRARY: Option<&'static str> = None;
+}
+
+impl<M: Model> Export for M {
+    type Model = Self;
+}

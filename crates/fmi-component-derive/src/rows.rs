@@ -214,17 +214,19 @@ fn start(field: &Field, class: Class) -> TokenStream {
     }
 }
 
-/// The start value of an array: as it is written, or the same for each element.
+/// The start value of an array: as it is written, or a number for each element.
 fn array(field: &Field, shape: &Shape) -> TokenStream {
     let start = start(field, shape.class);
-    match field.start() {
-        Some(Expr::Array(_) | Expr::Repeat(_)) => start,
-        _ => shape
-            .dimensions
-            .iter()
-            .rev()
-            .fold(start, |inner, length| quote! { [#inner; #length] }),
+    let is_number = match field.start() {
+        None | Some(Expr::Lit(_)) => true,
+        Some(Expr::Unary(unary)) => matches!(*unary.expr, Expr::Lit(_)),
+        Some(_) => false,
+    };
+    if !is_number {
+        return start;
     }
+    let lengths = shape.dimensions.iter().rev();
+    lengths.fold(start, |inner, length| quote! { [#inner; #length] })
 }
 
 /// A number as it is written, but that whole numbers stand for reals too: `start = 1` for an `f64`.

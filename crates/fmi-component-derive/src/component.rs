@@ -20,17 +20,8 @@ pub fn expand(input: &DeriveInput) -> Result<TokenStream> {
     let push = variables.filter_map(|field| Some(rows::push(field, field.shape.as_ref()?)));
     let push: Vec<TokenStream> = push.collect::<Result<_>>()?;
     let first = ordered.iter().map(|field| rows::first(field));
-    let take = ordered.iter().filter_map(|field| {
-        let shape = field.shape.as_ref()?;
-        match field.role {
-            Role::Input => Some(rows::take(field, shape)),
-            Role::Parameter => {
-                let count = rows::count(shape);
-                Some(quote! { values.skip(#count); })
-            }
-            _ => None,
-        }
-    });
+    let take = taken(&ordered, |field| field.role == Role::Input);
+    let tune = taken(&ordered, |field| field.facts.fact("tunable").is_some());
     let saved = Saved::of(&fields);
     let Saved { kept, save, load } = &saved;
     Ok(quote! {
@@ -63,6 +54,11 @@ pub fn expand(input: &DeriveInput) -> Result<TokenStream> {
                 fn take(&mut self, values: &mut ::fmi_component::derived::Given<'_>) {
                     let _ = &values;
                     #(#take)*
+                }
+
+                fn tune(&mut self, values: &mut ::fmi_component::derived::Given<'_>) {
+                    let _ = &values;
+                    #(#tune)*
                 }
 
                 fn save(&self) -> State { State { #(#save),* } }
@@ -113,6 +109,20 @@ fn fields(input: &DeriveInput) -> Result<Vec<Field>> {
         }
     }
     errors.map_or(Ok(fields), Err)
+}
+
+/// Statements that take those values that are `wanted`, and pass over the others.
+fn taken(ordered: &[&Field], wanted: impl Fn(&Field) -> bool) -> Vec<TokenStream> {
+    let settable = ordered.iter().filter(|field| field.role.is_settable());
+    let statement = settable.filter_map(|field| {
+        let shape = field.shape.as_ref()?;
+        if wanted(field) {
+            return Some(rows::take(field, shape));
+        }
+        let count = rows::count(shape);
+        Some(quote! { values.skip(#count); })
+    });
+    statement.collect()
 }
 
 fn same(one: &Field, other: &Field) -> bool {

@@ -128,6 +128,15 @@ impl Field {
             );
             return Err(Error::new(fact.key.span(), message));
         }
+        let unfit = match (self.facts.fact("tunable"), self.facts.fact("discrete")) {
+            (Some(fact), _) if matches!(shape.class, Class::Text | Class::Binary) => Some((fact, "tunable parameters are numbers")),
+            (_, Some(fact)) if !shape.class.is_real() => Some((fact, "it is discrete without being told")),
+            _ => None,
+        };
+        if let Some((fact, why)) = unfit {
+            let message = format!("`{}` is {}, and {why}: leave `{}` out", self.ident, shape.class.name(), fact.key);
+            return Err(Error::new(fact.key.span(), message));
+        }
         if let (Some(fact), false) = (self.facts.fact("mime_type"), shape.class == Class::Binary) {
             let message = format!("`mime_type` is for a Vec<u8>, and `{}` is {}: leave it out", self.ident, shape.class.name());
             return Err(Error::new(fact.key.span(), message));
@@ -149,10 +158,10 @@ impl Field {
 /// Keys with a value and flags of an attribute.
 fn keys(role: Role) -> (&'static [&'static str], &'static [&'static str]) {
     match role {
-        Role::Parameter => (&["start", "min", "max", "unit", "nominal", "name", "mime_type"], &[]),
+        Role::Parameter => (&["start", "min", "max", "unit", "nominal", "name", "mime_type"], &["tunable"]),
         Role::Input | Role::Output => (
             &["start", "min", "max", "unit", "nominal", "derivative", "name", "mime_type"],
-            &[],
+            &["discrete"],
         ),
         Role::Calculated => (&["start", "min", "max", "unit", "nominal", "name", "mime_type"], &[]),
         Role::State => (&["start"], &["skip"]),

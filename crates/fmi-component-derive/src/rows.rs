@@ -38,9 +38,14 @@ pub fn push(field: &Field, shape: &Shape) -> Result<TokenStream> {
     let derivative = field.facts.text("derivative")?.map(|derivative| {
         quote! { ::fmi_component::derived::derive(&mut rows[first..], #derivative); }
     });
-    Ok(match derivative {
-        None => push,
-        Some(derivative) => quote! { let first = rows.len(); #push #derivative },
+    let flags = ["tunable", "discrete"].into_iter().filter_map(|flag| {
+        let key = &field.facts.fact(flag)?.key;
+        Some(quote! { rows[first..].iter_mut().for_each(|row| row.variable.#key = true); })
+    });
+    let flags: Vec<TokenStream> = flags.collect();
+    Ok(match (derivative, flags.as_slice()) {
+        (None, []) => push,
+        (derivative, flags) => quote! { let first = rows.len(); #push #derivative #(#flags)* },
     })
 }
 

@@ -37,6 +37,9 @@ pub trait Component: Sized + Send + 'static {
     /// Takes the inputs from `values`.
     fn take(&mut self, values: &mut Given<'_>);
 
+    /// Takes the tunable parameters from `values`.
+    fn tune(&mut self, values: &mut Given<'_>);
+
     /// A copy of all fields.
     fn save(&self) -> Self::State;
 
@@ -49,8 +52,8 @@ pub trait Component: Sized + Send + 'static {
 
 /// What a component does: written by its author.
 ///
-/// Before each call the fields of the inputs hold what the importer has set; those of the parameters have it since
-/// [`CoSimulation::initialize`]. An error or a panic leaves the component as it was before the call.
+/// Before each call the fields of the inputs and of the tunable parameters hold what the importer has set; those of the other
+/// parameters have it since [`CoSimulation::initialize`]. An error or a panic leaves the component as it was before the call.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no step",
     note = "write impl CoSimulation for {Self} {{ fn do_step(&mut self, step: &mut Step) -> Result<()> {{ .. }} }}"
@@ -72,6 +75,15 @@ pub trait CoSimulation: Component {
     /// # Errors
     /// The step cannot be done: [`Error::Step`](crate::Error::Step), which lets the importer try a shorter one.
     fn do_step(&mut self, step: &mut Step) -> Result<()>;
+
+    /// Computes what depends on tunable parameters (`#[parameter(start = .., tunable)]`) before the first step after one of them has
+    /// changed. Their fields hold the new values.
+    ///
+    /// # Errors
+    /// Parameters that do not go together: [`Error::parameter`](crate::Error::parameter).
+    fn tuned(&mut self) -> Result<()> {
+        Ok(())
+    }
 
     /// What is doubtful about the run so far: see [`Model::warnings`].
     fn warnings(&self, _told: &[&'static str]) -> Vec<Warning> {
@@ -137,6 +149,16 @@ impl<C: CoSimulation> Model for ComponentModel<C> {
             time: start_time,
             most_points: MOST_POINTS,
         })
+    }
+
+    fn tune(&mut self, values: &Values) -> Result<()> {
+        let before = self.component.save();
+        self.component.tune(&mut Given::new(values));
+        if let Err(refused) = self.component.tuned() {
+            self.component.load(&before)?;
+            return Err(refused);
+        }
+        Ok(())
     }
 
     fn advance_to(&mut self, end_time: f64, values: &Values) -> Result<()> {

@@ -242,6 +242,13 @@ impl<M> Row<M> {
         self
     }
 
+    /// The same real input or output, which changes at events or between steps alone.
+    #[must_use]
+    pub fn discrete(mut self) -> Self {
+        self.variable.discrete = true;
+        self
+    }
+
     /// The same output as a calculated parameter: known when initialisation ends, constant from then on unless a tunable
     /// parameter that it depends on changes.
     #[must_use]
@@ -318,6 +325,7 @@ impl<M> Row<M> {
             causality,
             kind,
             tunable: false,
+            discrete: false,
             dependencies: None,
             derivative: None,
             terminal: None,

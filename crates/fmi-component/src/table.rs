@@ -56,6 +56,10 @@ impl Table {
         {
             return defect(format!("{} is tunable, but no parameter", other.name));
         }
+        let bytes = |variable: &&Variable| variable.tunable && variable.kind.start_bytes().is_some();
+        if let Some(other) = variables.iter().find(bytes) {
+            return defect(format!("{} is tunable, but no number", other.name));
+        }
         let tunable = (0..settable).filter(|position| variables[*position].tunable).collect();
         let mut derivatives = HashMap::new();
         for (position, variable) in variables.iter().enumerate() {
@@ -110,6 +114,7 @@ impl Table {
             }
             (Causality::Input | Causality::Output, _) => {
                 return match variable.kind {
+                    _ if variable.discrete => Variability::Discrete,
                     Kind::Real(_) | Kind::Single(_) => Variability::Continuous,
                     _ => Variability::Discrete,
                 };

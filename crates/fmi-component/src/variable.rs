@@ -88,6 +88,8 @@ pub struct Variable {
     /// A parameter that may change between steps too: the model takes it over at the beginning of the next step
     /// ([`Model::tune`](crate::Model::tune)).
     pub tunable: bool,
+    /// An input or output that changes at events or between steps alone, although it is a real.
+    pub discrete: bool,
     /// Parameters, inputs and [`TIME`] that a computed variable depends on while the component is initialised. `None` says that
     /// it may depend on all of them.
     pub dependencies: Option<Arc<[&'static str]>>,
@@ -272,6 +274,9 @@ pub fn fingerprint<'a>(version: &str, variables: impl IntoIterator<Item = &'a Va
         ));
         if variable.tunable {
             text.push_str(" tunable");
+        }
+        if variable.discrete {
+            text.push_str(" discrete");
         }
     }
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {

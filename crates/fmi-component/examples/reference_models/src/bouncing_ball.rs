@@ -13,7 +13,7 @@ pub struct BouncingBall {
     #[parameter(start = -9.81, unit = "m/s2")]
     g: f64,
     /// Coefficient of restitution.
-    #[parameter(start = 0.7, min = 0.5, max = 1)]
+    #[parameter(start = 0.7, min = 0.5, max = 1, tunable)]
     e: f64,
     /// Velocity after an impact below which the ball rests.
     #[parameter(start = 0.1, min = 0, unit = "m/s")]

@@ -21,10 +21,15 @@ pub enum Choice {
 #[allow(non_snake_case)] // the names are those of the Reference FMU
 pub struct Feedthrough {
     #[parameter(start = 0)] Float64_fixed_parameter: f64,
+    #[parameter(start = 0, tunable)] Float64_tunable_parameter: f64,
     #[input] Float32_continuous_input: f32,
     #[output] Float32_continuous_output: f32,
+    #[input(discrete)] Float32_discrete_input: f32,
+    #[output(discrete)] Float32_discrete_output: f32,
     #[input] Float64_continuous_input: f64,
     #[output] Float64_continuous_output: f64,
+    #[input(discrete)] Float64_discrete_input: f64,
+    #[output(discrete)] Float64_discrete_output: f64,
     #[input] Int8_input: i8,
     #[output] Int8_output: i8,
     #[input] UInt8_input: u8,
@@ -54,7 +59,10 @@ pub struct Feedthrough {
 impl Feedthrough {
     fn pass(&mut self) {
         self.Float32_continuous_output = self.Float32_continuous_input;
-        self.Float64_continuous_output = self.Float64_fixed_parameter + self.Float64_continuous_input;
+        self.Float32_discrete_output = self.Float32_discrete_input;
+        let parameters = self.Float64_fixed_parameter + self.Float64_tunable_parameter;
+        self.Float64_continuous_output = parameters + self.Float64_continuous_input;
+        self.Float64_discrete_output = self.Float64_discrete_input;
         self.Int8_output = self.Int8_input;
         self.UInt8_output = self.UInt8_input;
         self.Int16_output = self.Int16_input;

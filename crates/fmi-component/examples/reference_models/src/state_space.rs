@@ -13,16 +13,16 @@ const UNIT_MATRIX: [[f64; N]; N] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0,
 #[allow(non_snake_case)] // matrices have capital letters
 pub struct StateSpace {
     /// Matrix coefficient A.
-    #[parameter(start = UNIT_MATRIX)]
+    #[parameter(start = UNIT_MATRIX, tunable)]
     A: [[f64; N]; N],
     /// Matrix coefficient B.
-    #[parameter(start = UNIT_MATRIX)]
+    #[parameter(start = UNIT_MATRIX, tunable)]
     B: [[f64; N]; N],
     /// Matrix coefficient C.
-    #[parameter(start = UNIT_MATRIX)]
+    #[parameter(start = UNIT_MATRIX, tunable)]
     C: [[f64; N]; N],
     /// Matrix coefficient D.
-    #[parameter(start = UNIT_MATRIX)]
+    #[parameter(start = UNIT_MATRIX, tunable)]
     D: [[f64; N]; N],
     /// Initial state vector.
     #[parameter(start = [0, 0, 0])]

@@ -133,7 +133,7 @@ table! {
     fmi3GetUInt64(Instance, References, Length, UnsignedLongs, Length);
     fmi3GetBoolean(Instance, References, Length, Bytes, Length);
     fmi3GetString(Instance, References, Length, Texts, Length);
-    fmi3GetBinary(Instance, References, Length, Sizes, NoBinaries, Length);
+    fmi3GetBinary(Instance, References, Length, Sizes, Binaries, Length);
     fmi3GetClock(Instance, References, Length, Bytes);
     fmi3SetFloat32(Instance, References, Length, Singles, Length);
     fmi3SetFloat64(Instance, References, Length, Reals, Length);
@@ -147,7 +147,7 @@ table! {
     fmi3SetUInt64(Instance, References, Length, UnsignedLongs, Length);
     fmi3SetBoolean(Instance, References, Length, Bytes, Length);
     fmi3SetString(Instance, References, Length, Texts, Length);
-    fmi3SetBinary(Instance, References, Length, Sizes, NoBinaries, Length);
+    fmi3SetBinary(Instance, References, Length, BinarySizes, Binaries, Length);
     fmi3SetClock(Instance, References, Length, Bytes);
     fmi3GetNumberOfVariableDependencies(Instance, Reference, Sizes);
     fmi3GetVariableDependencies(Instance, Reference, Sizes, References, Sizes, Wholes, Length);

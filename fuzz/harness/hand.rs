@@ -58,6 +58,7 @@ pub struct Buffers {
     pub longs: [i64; LONGEST],
     pub sizes: [usize; LONGEST],
     pub texts: [*const c_char; LONGEST],
+    pub binaries: [*const u8; LONGEST],
     pub bytes: [u8; 8 * LONGEST],
 }
 
@@ -89,6 +90,7 @@ impl<'a> Hand<'a> {
             longs: [0; LONGEST],
             sizes: [0; LONGEST],
             texts: [std::ptr::null(); LONGEST],
+            binaries: [std::ptr::null(); LONGEST],
             bytes: [0; 8 * LONGEST],
         });
         Self {
@@ -204,6 +206,24 @@ impl<'a> Hand<'a> {
         self.texts.get(index).map_or(std::ptr::null(), |text| text.as_ptr())
     }
 
+    /// Pointers that a getter has handed out lead nowhere after the next call of a getter: none of them is passed on.
+    fn forget_lent(&mut self) {
+        // SAFETY: the buffers live as long as the hand, and no reference into them does.
+        unsafe {
+            (*self.buffers).texts = [std::ptr::null(); LONGEST];
+            (*self.buffers).binaries = [std::ptr::null(); LONGEST];
+        }
+    }
+
+    /// Null, or the bytes of the buffer, which are as many as any of [`BinarySizes`].
+    fn binary(&mut self) -> *const u8 {
+        match self.below(4) {
+            0 => std::ptr::null(),
+            // SAFETY: the buffers live as long as the hand.
+            _ => unsafe { (&raw const (*self.buffers).bytes).cast() },
+        }
+    }
+
     /// Damages bytes that are to be read back, and mends their checksum now and then, so that what is behind it is reached.
     pub fn damage(&mut self, bytes: &mut Vec<u8>) {
         for _ in 0..self.below(4) {
@@ -273,7 +293,7 @@ roles! {
     Wholes -> *mut i32 = |hand| filled!(hand, integers, i32::from(hand.byte()));
     Longs -> *mut i64 = |hand| filled!(hand, longs, i64::from(hand.byte()));
     Sizes -> *mut usize = |hand| filled!(hand, sizes, usize::from(hand.byte()));
-    Texts -> *mut *const c_char = |hand| filled!(hand, texts, hand.text());
+    Texts -> *mut *const c_char = |hand| { hand.forget_lent(); filled!(hand, texts, hand.text()) };
     Bytes -> *mut u8 = |hand| filled!(hand, bytes, hand.byte());
     Singles -> *mut f32 = |hand| filled!(hand, reals, hand.real());
     Tiny -> *mut i8 = |hand| filled!(hand, bytes, hand.byte());
@@ -282,5 +302,6 @@ roles! {
     UnsignedLongs -> *mut u64 = |hand| filled!(hand, longs, i64::from(hand.byte()));
     Zeros -> *mut i32 = |hand| filled!(hand, integers, 0);
     Nothing -> *mut std::ffi::c_void = |_hand| std::ptr::null_mut();
-    NoBinaries -> *mut *const u8 = |_hand| std::ptr::null_mut();
+    BinarySizes -> *mut usize = |hand| filled!(hand, sizes, usize::from(hand.byte()) % (8 * LONGEST + 1));
+    Binaries -> *mut *const u8 = |hand| { hand.forget_lent(); filled!(hand, binaries, hand.binary()) };
 }

@@ -34,7 +34,10 @@ struct Asked {
 /// `crate-type = ["cdylib", "rlib"]` under `[lib]`. `cargo run --release` then does it all. Arguments: see `--help`.
 pub fn main<M: Export>() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
-    if arguments.iter().any(|argument| argument == "--help" || argument == "-h") {
+    if arguments
+        .iter()
+        .any(|argument| argument == "--help" || argument == "-h")
+    {
         print!("{USAGE}");
         return ExitCode::SUCCESS;
     }
@@ -135,7 +138,9 @@ fn built_library(of_crate: Option<&str>, of_package: &str) -> Result<PathBuf> {
     let folders = [folder.join("deps"), folder.join("../deps"), folder.to_path_buf()];
     let names = of_crate.into_iter().chain([of_package]);
     let names: Vec<String> = names.map(|name| format!("{DLL_PREFIX}{name}{DLL_SUFFIX}")).collect();
-    let paths = folders.iter().flat_map(|folder| names.iter().map(|name| folder.join(name)));
+    let paths = folders
+        .iter()
+        .flat_map(|folder| names.iter().map(|name| folder.join(name)));
     paths.into_iter().find(|path| path.is_file()).ok_or_else(|| {
         Error::file(
             &folders[0].join(&names[0]),

@@ -2,6 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
+use syn::spanned::Spanned;
 use syn::{Data, DeriveInput, Error, Fields, Ident, Result};
 
 use crate::facts::Facts;
@@ -98,7 +99,10 @@ fn fields(input: &DeriveInput) -> Result<Vec<Field>> {
         let checked = Field::read(field).and_then(|field| match fields.iter().any(|former| same(former, &field)) {
             true => Err(Error::new(
                 field.ident.span(),
-                format!("another field is the variable `{}`: give this one another name", field.name),
+                format!(
+                    "another field is the variable `{}`: give this one another name",
+                    field.name
+                ),
             )),
             false => Ok(field),
         });
@@ -131,12 +135,23 @@ fn same(one: &Field, other: &Field) -> bool {
 
 /// The facts of the model.
 fn info(input: &DeriveInput) -> Result<TokenStream> {
-    let attribute = input.attrs.iter().find(|attribute| attribute.path().is_ident("component"));
+    let attribute = input
+        .attrs
+        .iter()
+        .find(|attribute| attribute.path().is_ident("component"));
     let facts = match attribute {
         Some(attribute) => Facts::read(attribute, &["name", "stop_time", "step_size"], &[])?,
         None => Facts::none(input.ident.span()),
     };
     let name = facts.text("name")?.unwrap_or_else(|| input.ident.to_string());
+    let is_letter = |sign: char| sign.is_ascii_alphabetic() || sign == '_';
+    if !(name.starts_with(is_letter) && name.chars().all(|sign| is_letter(sign) || sign.is_ascii_digit())) {
+        let place = facts.value("name").map_or(input.ident.span(), Spanned::span);
+        let message = format!(
+            "\"{name}\" is no C identifier, which the name of a model is: write letters, digits and underscores"
+        );
+        return Err(Error::new(place, message));
+    }
     let description = text::description(&input.attrs);
     let times = ["stop_time", "step_size"].into_iter().filter_map(|key| {
         let (field, value) = (Ident::new(key, facts.span), facts.value(key)?);

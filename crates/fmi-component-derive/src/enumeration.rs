@@ -14,7 +14,10 @@ pub fn expand(input: &DeriveInput) -> Result<TokenStream> {
         return Err(Error::new(ident.span(), "derive Enumeration for an enum"));
     };
     if data.variants.is_empty() {
-        return Err(Error::new(ident.span(), "an enumeration has at least one option: write one"));
+        return Err(Error::new(
+            ident.span(),
+            "an enumeration has at least one option: write one",
+        ));
     }
     let mut options = Vec::new();
     for variant in &data.variants {
@@ -22,14 +25,26 @@ pub fn expand(input: &DeriveInput) -> Result<TokenStream> {
             let message = format!("an option has no fields: write `{}` alone", variant.ident);
             return Err(Error::new_spanned(&variant.fields, message));
         }
-        let attribute = variant.attrs.iter().find(|attribute| attribute.path().is_ident("enumeration"));
+        let attribute = variant
+            .attrs
+            .iter()
+            .find(|attribute| attribute.path().is_ident("enumeration"));
         let name = match attribute {
             Some(attribute) => Facts::read(attribute, &["name"], &[])?.text("name")?,
             None => None,
         };
-        options.push((name.unwrap_or_else(|| variant.ident.to_string()), text::description(&variant.attrs)));
+        let name = name.unwrap_or_else(|| variant.ident.to_string());
+        if options.iter().any(|(former, _)| *former == name) {
+            let message =
+                format!("another option is named `{name}`: write #[enumeration(name = \"..\")] with another name");
+            return Err(Error::new(variant.ident.span(), message));
+        }
+        options.push((name, text::description(&variant.attrs)));
     }
-    let attribute = input.attrs.iter().find(|attribute| attribute.path().is_ident("enumeration"));
+    let attribute = input
+        .attrs
+        .iter()
+        .find(|attribute| attribute.path().is_ident("enumeration"));
     let name = match attribute {
         Some(attribute) => Facts::read(attribute, &["name"], &[])?.text("name")?,
         None => None,
@@ -38,7 +53,9 @@ pub fn expand(input: &DeriveInput) -> Result<TokenStream> {
     let variants: Vec<_> = data.variants.iter().map(|variant| &variant.ident).collect();
     let numbers = 1_i64..;
     let numbers: Vec<i64> = numbers.take(variants.len()).collect();
-    let pairs = options.iter().map(|(name, description)| quote! { (#name, #description) });
+    let pairs = options
+        .iter()
+        .map(|(name, description)| quote! { (#name, #description) });
     Ok(quote! {
         const _: () = {
             use ::fmi_component::derived::serde;

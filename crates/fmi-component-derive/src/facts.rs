@@ -50,22 +50,34 @@ impl Facts {
                 .into_iter()
                 .collect(),
             Meta::NameValue(pair) => {
-                return Err(Error::new_spanned(pair, "write the facts in parentheses: (start = 1.0)"));
+                return Err(Error::new_spanned(
+                    pair,
+                    "write the facts in parentheses: (start = 1.0)",
+                ));
             }
         };
         for (number, fact) in list.iter().enumerate() {
             let key = fact.key.to_string();
             let known = |keys: &[&str]| keys.contains(&key.as_str());
             if list[..number].iter().any(|former| former.key == fact.key) {
-                return Err(Error::new(fact.key.span(), format!("`{key}` is given twice: write it once")));
+                return Err(Error::new(
+                    fact.key.span(),
+                    format!("`{key}` is given twice: write it once"),
+                ));
             }
             match (known(valued), known(flags), &fact.value) {
                 (true, _, Some(_)) | (_, true, None) => {}
                 (true, _, None) => {
-                    return Err(Error::new(fact.key.span(), format!("`{key}` needs a value: write `{key} = ..`")));
+                    return Err(Error::new(
+                        fact.key.span(),
+                        format!("`{key}` needs a value: write `{key} = ..`"),
+                    ));
                 }
                 (_, true, Some(value)) => {
-                    return Err(Error::new(value.span(), format!("`{key}` takes no value: write `{key}` alone")));
+                    return Err(Error::new(
+                        value.span(),
+                        format!("`{key}` takes no value: write `{key}` alone"),
+                    ));
                 }
                 _ => {
                     let all: Vec<&str> = valued.iter().chain(flags).copied().collect();
@@ -73,7 +85,10 @@ impl Facts {
                         [] => "nothing is allowed here".into(),
                         all => format!("write one of: {}", all.join(", ")),
                     };
-                    return Err(Error::new(fact.key.span(), format!("`{key}` has no meaning here: {allowed}")));
+                    return Err(Error::new(
+                        fact.key.span(),
+                        format!("`{key}` has no meaning here: {allowed}"),
+                    ));
                 }
             }
         }

@@ -58,7 +58,10 @@ pub struct Field {
 impl Field {
     /// Reads a field.
     pub fn read(field: &syn::Field) -> Result<Self> {
-        let ident = field.ident.clone().ok_or_else(|| Error::new_spanned(field, "name the field"))?;
+        let ident = field
+            .ident
+            .clone()
+            .ok_or_else(|| Error::new_spanned(field, "name the field"))?;
         let attributes: Vec<(Role, &Attribute)> = field
             .attrs
             .iter()
@@ -67,9 +70,9 @@ impl Field {
                 Some((*role, attribute))
             })
             .collect();
-        if let [_, (_, second), ..] = attributes.as_slice() {
+        if attributes.len() > 1 {
             let message = format!("`{ident}` has a role already: write one of {}", roles());
-            return Err(Error::new_spanned(second, message));
+            return Err(Error::new(ident.span(), message));
         }
         let (role, facts) = match attributes.first() {
             None => (Role::State, Facts::none(ident.span())),
@@ -129,16 +132,27 @@ impl Field {
             return Err(Error::new(fact.key.span(), message));
         }
         let unfit = match (self.facts.fact("tunable"), self.facts.fact("discrete")) {
-            (Some(fact), _) if matches!(shape.class, Class::Text | Class::Binary) => Some((fact, "tunable parameters are numbers")),
+            (Some(fact), _) if matches!(shape.class, Class::Text | Class::Binary) => {
+                Some((fact, "tunable parameters are numbers"))
+            }
             (_, Some(fact)) if !shape.class.is_real() => Some((fact, "it is discrete without being told")),
             _ => None,
         };
         if let Some((fact, why)) = unfit {
-            let message = format!("`{}` is {}, and {why}: leave `{}` out", self.ident, shape.class.name(), fact.key);
+            let message = format!(
+                "`{}` is {}, and {why}: leave `{}` out",
+                self.ident,
+                shape.class.name(),
+                fact.key
+            );
             return Err(Error::new(fact.key.span(), message));
         }
         if let (Some(fact), false) = (self.facts.fact("mime_type"), shape.class == Class::Binary) {
-            let message = format!("`mime_type` is for a Vec<u8>, and `{}` is {}: leave it out", self.ident, shape.class.name());
+            let message = format!(
+                "`mime_type` is for a Vec<u8>, and `{}` is {}: leave it out",
+                self.ident,
+                shape.class.name()
+            );
             return Err(Error::new(fact.key.span(), message));
         }
         Ok(())
@@ -158,9 +172,21 @@ impl Field {
 /// Keys with a value and flags of an attribute.
 fn keys(role: Role) -> (&'static [&'static str], &'static [&'static str]) {
     match role {
-        Role::Parameter => (&["start", "min", "max", "unit", "nominal", "name", "mime_type"], &["tunable"]),
+        Role::Parameter => (
+            &["start", "min", "max", "unit", "nominal", "name", "mime_type"],
+            &["tunable"],
+        ),
         Role::Input | Role::Output => (
-            &["start", "min", "max", "unit", "nominal", "derivative", "name", "mime_type"],
+            &[
+                "start",
+                "min",
+                "max",
+                "unit",
+                "nominal",
+                "derivative",
+                "name",
+                "mime_type",
+            ],
             &["discrete"],
         ),
         Role::Calculated => (&["start", "min", "max", "unit", "nominal", "name", "mime_type"], &[]),

@@ -9,6 +9,8 @@
 
 mod component;
 mod enumeration;
+#[cfg(test)]
+mod error_tests;
 mod facts;
 mod field;
 mod rows;

@@ -58,17 +58,27 @@ fn kind(field: &Field, shape: &Shape) -> Result<TokenStream> {
         Class::Real | Class::Single => {
             let unit = match field.facts.value("unit") {
                 None => quote! { ::fmi_component::Unit::ONE },
-                Some(Expr::Lit(ExprLit { lit: Lit::Str(text), .. })) => unit::parse(text)?,
+                Some(Expr::Lit(ExprLit {
+                    lit: Lit::Str(text), ..
+                })) => unit::parse(text)?,
                 Some(constant) => quote! { #constant },
             };
-            let of = if shape.class == Class::Real { quote!(f64) } else { quote!(f32) };
+            let of = if shape.class == Class::Real {
+                quote!(f64)
+            } else {
+                quote!(f32)
+            };
             let min = fact("min").unwrap_or(quote! { #of::NEG_INFINITY });
             let max = fact("max").unwrap_or(quote! { #of::INFINITY });
             let nominal = match fact("nominal") {
                 None => quote! { ::core::option::Option::None },
                 Some(nominal) => quote! { ::core::option::Option::Some(#nominal) },
             };
-            let start = if shape.dimensions.is_empty() { start } else { quote!(0.0) };
+            let start = if shape.dimensions.is_empty() {
+                start
+            } else {
+                quote!(0.0)
+            };
             let (make, variant) = match shape.class {
                 Class::Single => (format_ident!("single"), format_ident!("Single")),
                 _ => (format_ident!("quantity"), format_ident!("Real")),
@@ -240,7 +250,9 @@ fn number(value: &Expr, class: Class) -> TokenStream {
         return quote! { #value };
     }
     match value {
-        Expr::Lit(ExprLit { lit: Lit::Int(whole), .. }) if whole.suffix().is_empty() => {
+        Expr::Lit(ExprLit {
+            lit: Lit::Int(whole), ..
+        }) if whole.suffix().is_empty() => {
             let real = Lit::new(proc_macro2::Literal::f64_unsuffixed(
                 whole.base10_parse::<f64>().unwrap_or(f64::NAN),
             ));

@@ -82,7 +82,10 @@ fn exponents(name: &str) -> std::result::Result<Vec<proc_macro2::Literal>, Strin
         return Err(name.to_owned());
     }
     for (part, sign) in parts.into_iter().zip([1, -1]) {
-        let part = part.strip_prefix('(').and_then(|part| part.strip_suffix(')')).unwrap_or(part);
+        let part = part
+            .strip_prefix('(')
+            .and_then(|part| part.strip_suffix(')'))
+            .unwrap_or(part);
         for factor in part.split('.') {
             if factor == "1" {
                 continue;

@@ -53,7 +53,8 @@ pub trait Component: Sized + Send + 'static {
 /// What a component does: written by its author.
 ///
 /// Before each call the fields of the inputs and of the tunable parameters hold what the importer has set; those of the other
-/// parameters have it since [`CoSimulation::initialize`]. An error or a panic leaves the component as it was before the call.
+/// parameters have it since [`CoSimulation::initialize`]. An error leaves the component as it was before the call. After a panic an
+/// FMU's instance only reads, restores, resets and frees.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no step",
     note = "write impl CoSimulation for {Self} {{ fn do_step(&mut self, step: &mut Step) -> Result<()> {{ .. }} }}"
@@ -97,6 +98,7 @@ pub struct ComponentModel<C> {
     component: C,
     start: f64,
     time: f64,
+    name: &'static str,
     most_points: u64,
 }
 
@@ -112,7 +114,7 @@ impl<C: CoSimulation> ComponentModel<C> {
     fn step(&mut self, end: f64, values: &Values, events: Events) -> Result<Reached> {
         let before = self.component.save();
         self.component.take(&mut Given::new(values));
-        let mut step = Step::new([self.start, self.time, end], C::info().name, self.most_points, events);
+        let mut step = Step::new([self.start, self.time, end], self.name, self.most_points, events);
         if let Err(refused) = self.component.do_step(&mut step) {
             self.component.load(&before)?;
             return Err(refused);
@@ -147,6 +149,7 @@ impl<C: CoSimulation> Model for ComponentModel<C> {
             component,
             start: start_time,
             time: start_time,
+            name: C::info().name,
             most_points: MOST_POINTS,
         })
     }

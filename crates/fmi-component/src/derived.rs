@@ -96,7 +96,9 @@ pub fn whole<T: WholeNumber>(min: T, max: T, start: T) -> Kind {
 /// A computed whole number as variables hold it. One above 2^63 - 1 is a defect of the component and panics.
 pub fn number<T: WholeNumber>(value: T) -> i64 {
     let held: std::result::Result<i64, _> = value.try_into();
-    held.unwrap_or_else(|_| panic!("a whole number of the component is {value}, above 2^63 - 1, the largest that is held"))
+    held.unwrap_or_else(|_| {
+        panic!("a whole number of the component is {value}, above 2^63 - 1, the largest that is held")
+    })
 }
 
 /// Reads elements of an array from an index on.
@@ -153,7 +155,11 @@ pub fn derive<M>(rows: &mut [Row<M>], derivative: &str) {
 pub fn copy(saved: &[f64], array: &mut [f64]) -> Result<()> {
     if saved.len() != array.len() {
         return Err(Error::state(
-            format!("an array in it has {} elements, that of the model {}", saved.len(), array.len()),
+            format!(
+                "an array in it has {} elements, that of the model {}",
+                saved.len(),
+                array.len()
+            ),
             "Restore it with the FMU that wrote it.",
         ));
     }

@@ -34,7 +34,10 @@ impl Values {
             .iter()
             .map(|variable| stored(&variable.kind, variable.start()))
             .collect();
-        let starts = table.settable().iter().filter_map(|variable| variable.kind.start_bytes());
+        let starts = table
+            .settable()
+            .iter()
+            .filter_map(|variable| variable.kind.start_bytes());
         let bytes = starts.map(<[u8]>::to_vec).collect();
         Self { table, values, bytes }
     }
@@ -94,7 +97,10 @@ impl Values {
 
     #[inline]
     fn settable(&self, position: usize) -> Result<&Variable> {
-        self.table.settable().get(position).ok_or_else(|| self.not_settable(position))
+        self.table
+            .settable()
+            .get(position)
+            .ok_or_else(|| self.not_settable(position))
     }
 
     #[cold]
@@ -129,7 +135,10 @@ impl Values {
         let [found, own] = [(values.len(), bytes.len()), (self.values.len(), self.bytes.len())];
         if found != own {
             return Err(Error::state(
-                format!("it holds {} values and {} texts, this model has {} and {}", found.0, found.1, own.0, own.1),
+                format!(
+                    "it holds {} values and {} texts, this model has {} and {}",
+                    found.0, found.1, own.0, own.1
+                ),
                 "Save and restore with the same model.",
             ));
         }

@@ -184,9 +184,10 @@ impl Variable {
             (Kind::Real(quantity) | Kind::Single(quantity), Value::Real(real)) => {
                 real.is_finite() && (quantity.min..=quantity.max).contains(&real)
             }
-            (Kind::Integer { range, .. } | Kind::Long { range, .. } | Kind::Sized { range, .. }, Value::Integer(integer)) => {
-                range.contains(&integer)
-            }
+            (
+                Kind::Integer { range, .. } | Kind::Long { range, .. } | Kind::Sized { range, .. },
+                Value::Integer(integer),
+            ) => range.contains(&integer),
             (Kind::Enumeration { options, .. }, Value::Integer(integer)) => {
                 (1..=options.len() as i64).contains(&integer)
             }
@@ -227,7 +228,10 @@ impl Variable {
                 };
                 (quantity.unit.format(real), allowed, in_range)
             }
-            (Kind::Integer { range, .. } | Kind::Long { range, .. } | Kind::Sized { range, .. }, Value::Integer(integer)) => {
+            (
+                Kind::Integer { range, .. } | Kind::Long { range, .. } | Kind::Sized { range, .. },
+                Value::Integer(integer),
+            ) => {
                 let allowed = format!("a whole number from {} to {}", range.start(), range.end());
                 (integer.to_string(), allowed, in_range)
             }

@@ -83,7 +83,9 @@ fn line(row: &Variable, run: usize) -> Vec<String> {
     };
     let (unit, range) = match &row.kind {
         Kind::Real(quantity) | Kind::Single(quantity) => (quantity.unit.name, real_range(quantity.min, quantity.max)),
-        Kind::Integer { range, .. } | Kind::Sized { range, .. } => ("integer", format!("{} to {}", range.start(), range.end())),
+        Kind::Integer { range, .. } | Kind::Sized { range, .. } => {
+            ("integer", format!("{} to {}", range.start(), range.end()))
+        }
         Kind::Enumeration { options, .. } => {
             let option = |(number, (name, _)): (i64, &(&str, &str))| format!("{number} {name}");
             let options: Vec<String> = (1..).zip(*options).map(option).collect();

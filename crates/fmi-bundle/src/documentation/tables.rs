@@ -133,7 +133,9 @@ fn range(variable: &Variable) -> String {
             (false, true) => format!("to {}", real(quantity.max)),
             (false, false) => "any".into(),
         },
-        Kind::Integer { range, .. } | Kind::Long { range, .. } | Kind::Sized { range, .. } => format!("{} to {}", range.start(), range.end()),
+        Kind::Integer { range, .. } | Kind::Long { range, .. } | Kind::Sized { range, .. } => {
+            format!("{} to {}", range.start(), range.end())
+        }
         Kind::Enumeration { options, .. } => {
             let line = |(number, (name, description)): (i64, &(&str, &str))| {
                 format!("{number} {}: {}", escape(*name), escape(*description))

@@ -113,7 +113,9 @@ impl RealType {
 
 /// The types in use, in the order of their units and then of their nominal values.
 fn real_types(variables: &[Variable]) -> Vec<RealType> {
-    let of_all = variables.iter().filter_map(|variable| Some(RealType::of(variable, variable.kind.quantity()?)));
+    let of_all = variables
+        .iter()
+        .filter_map(|variable| Some(RealType::of(variable, variable.kind.quantity()?)));
     let of_all: Vec<RealType> = [RealType::TIME].into_iter().chain(of_all).collect();
     let of_unit = |unit: Unit| {
         let mut types: Vec<RealType> = of_all.iter().filter(|each| each.unit == unit).copied().collect();

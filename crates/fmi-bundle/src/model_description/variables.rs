@@ -4,8 +4,8 @@ use std::io;
 
 use fmi_component::{Causality, Kind, TIME, TIME_REFERENCE, Variable, Version, value_reference};
 
-use super::types::{RealType, typed};
 use super::Layout;
+use super::types::{RealType, typed};
 use crate::xml::{self, Attributes, Xml, number};
 
 /// All variables, the time first.

@@ -18,8 +18,8 @@ macro_rules! export_fmi3 {
             use $crate::c_api::fmi3::{self, Instantiation, NO_CLOCKS, NO_CONFIGURATION, NO_DEPENDENCIES, StepResults};
             use $crate::c_api::values::{self, Arrays};
             use $crate::c_api::{
-                Boolean, ClockUpdate, Enumeration, Fmi3Log, IntermediateUpdate, Opaque, Preemption, Status, free,
-                contents, states,
+                Boolean, ClockUpdate, Enumeration, Fmi3Log, IntermediateUpdate, Opaque, Preemption, Status, contents,
+                free, states,
             };
             use $crate::instance::Access;
             use $crate::life_cycle::Version::Three;

@@ -449,7 +449,9 @@ fn of_another_type(variable: &Variable, reference: u32) -> Error {
         Kind::Enumeration { .. } => "enumeration (Integer, Int64)",
         Kind::Boolean { .. } => "boolean (Boolean)",
         Kind::Single(_) => "32-bit real (Real, Float32)",
-        Kind::Sized { size, .. } => return refused_type(variable, reference, &format!("integer (Integer, {})", size.name())),
+        Kind::Sized { size, .. } => {
+            return refused_type(variable, reference, &format!("integer (Integer, {})", size.name()));
+        }
         Kind::Text { .. } => "text (String)",
         Kind::Binary { .. } => "binary (Binary)",
     };

@@ -40,7 +40,9 @@ pub struct StateSpace {
 
 /// Row `row` of P a + Q b.
 fn row(row: usize, (p, a): (&[[f64; N]; N], &[f64; N]), (q, b): (&[[f64; N]; N], &[f64; N])) -> f64 {
-    (0..N).map(|column| p[row][column] * a[column] + q[row][column] * b[column]).sum()
+    (0..N)
+        .map(|column| p[row][column] * a[column] + q[row][column] * b[column])
+        .sum()
 }
 
 impl CoSimulation for StateSpace {

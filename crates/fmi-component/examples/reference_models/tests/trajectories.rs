@@ -31,7 +31,12 @@ fn check_value(simulation: &dyn DynSimulation, name: &str, text: &str, time: f64
     match (&variable.kind, simulation.value(position).unwrap()) {
         (Kind::Text { .. }, _) => assert_eq!(simulation.bytes(position).unwrap(), text.as_bytes(), "{place}"),
         (Kind::Binary { .. }, _) => {
-            let digits: String = simulation.bytes(position).unwrap().iter().map(|byte| format!("{byte:02x}")).collect();
+            let digits: String = simulation
+                .bytes(position)
+                .unwrap()
+                .iter()
+                .map(|byte| format!("{byte:02x}"))
+                .collect();
             assert_eq!(digits, text, "{place}");
         }
         (Kind::Boolean { .. }, value) => assert_eq!(variable.text(value), text, "{place}"),
@@ -39,7 +44,10 @@ fn check_value(simulation: &dyn DynSimulation, name: &str, text: &str, time: f64
         (_, Value::Real(real)) => {
             let expected: f64 = text.parse().unwrap();
             let allowed = TOLERANCE * expected.abs().max(1.0);
-            assert!((real - expected).abs() <= allowed, "{place}: {real}, published is {expected}");
+            assert!(
+                (real - expected).abs() <= allowed,
+                "{place}: {real}, published is {expected}"
+            );
         }
     }
 }
@@ -82,7 +90,10 @@ fn impacts_of_the_ball_are_those_of_the_exact_flight_to_first_order() {
         let reached = ball.advance_to_event(3.0).unwrap();
         assert!(reached.event, "impact {number}");
         let steps = (reached.time - exact) / 1e-3;
-        assert!((0.0..late).contains(&steps), "impact {number} is late by {steps} steps, not {late} at most");
+        assert!(
+            (0.0..late).contains(&steps),
+            "impact {number} is late by {steps} steps, not {late} at most"
+        );
         (exact, flight) = (exact + flight, flight * restitution);
         late += 2.0 + 2.0 * restitution * faster;
         faster = 2.0 + restitution * faster;
@@ -108,7 +119,10 @@ fn linear_models_agree_with_their_closed_forms_to_first_order() {
             let position = linear.position(&format!("y[{number}]")).unwrap();
             let exact = u * (2.0 * time.exp() - 1.0) - u * time.exp() + u;
             let found = linear.value(position).unwrap().to_f64();
-            assert!((found / exact - 1.0).abs() < 0.5e-3 * time, "y[{number}] at {time} s: {found}, exact {exact}");
+            assert!(
+                (found / exact - 1.0).abs() < 0.5e-3 * time,
+                "y[{number}] at {time} s: {found}, exact {exact}"
+            );
         }
     }
 }

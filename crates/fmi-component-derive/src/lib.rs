@@ -21,7 +21,14 @@ mod unit;
 use proc_macro::TokenStream;
 use syn::{DeriveInput, parse_macro_input};
 
-/// Makes a component of a struct: see `fmi_component::Component`.
+/// Makes a component of a struct: its fields are variables of an FMU and states.
+///
+/// - `#[parameter(start = ..)]`, `#[input]`, `#[output]`, `#[calculated]` before a field make it a variable. In parentheses `start`, `min`, `max`,
+///   `unit`, `nominal`, `name`, `mime_type` with values; of inputs and outputs `derivative`, and `discrete`; of parameters `tunable`.
+/// - `#[state(start = ..)]`, or no attribute: part of saved states alone; `#[state(skip)]` not even that.
+/// - `#[component(name = "..", stop_time = 1.0, step_size = 0.01)]` before the struct.
+///
+/// Documentation comments are the descriptions. What the component does is `impl CoSimulation`. The README of `fmi-component` has the types.
 #[proc_macro_derive(Component, attributes(component, parameter, calculated, input, output, state))]
 pub fn derive_component(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as DeriveInput);
@@ -30,7 +37,8 @@ pub fn derive_component(input: TokenStream) -> TokenStream {
         .into()
 }
 
-/// Makes the options of a variable of an `enum` without fields: see `fmi_component::Enumeration`.
+/// Makes the options of a variable of an `enum` without fields. `#[enumeration(name = "..")]` renames the type or an option. Derive `Clone`,
+/// `Copy` and `PartialEq` too; serde's `Serialize` and `Deserialize` are made here.
 #[proc_macro_derive(Enumeration, attributes(enumeration))]
 pub fn derive_enumeration(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as DeriveInput);

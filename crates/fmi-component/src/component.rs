@@ -17,6 +17,59 @@ use crate::structure::StructuralParameters;
 use crate::values::Values;
 
 /// A struct whose fields are variables: implemented by [`#[derive(Component)]`](derive@crate::Component), never by hand.
+///
+/// ```
+/// use fmi_component::{CoSimulation, Component, ComponentModel, Enumeration, Result, Simulation, Step};
+///
+/// #[derive(Enumeration, Clone, Copy, PartialEq)]
+/// enum Valve {
+///     /// Nothing flows.
+///     Closed,
+///     /// The tank empties.
+///     Open,
+/// }
+///
+/// /// Tank with an outlet: dV/dt = -V / tau.
+/// #[derive(Component)]
+/// struct Tank {
+///     /// Time that the outlet takes.
+///     #[parameter(start = 10, min = 1e-3, unit = "s")]
+///     tau: f64,
+///     /// Position of the valve.
+///     #[input]
+///     valve: Valve,
+///     /// Volume in the tank.
+///     #[output(start = 2, unit = "m3")]
+///     volume: f64,
+///     steps: u64,
+/// }
+///
+/// impl CoSimulation for Tank {
+///     fn do_step(&mut self, step: &mut Step) -> Result<()> {
+///         self.steps += 1;
+///         if self.valve == Valve::Open {
+///             self.volume *= (-step.size() / self.tau).exp();
+///         }
+///         Ok(())
+///     }
+/// }
+///
+/// let mut tank = Simulation::<ComponentModel<Tank>>::new(&[], &[("tau", 1.0.into())])?;
+/// tank.advance_to(1.0)?;
+/// assert_eq!(tank.real("volume")?, 2.0);
+/// tank.set("valve", Valve::Open.number())?;
+/// tank.advance_to(2.0)?;
+/// assert_eq!(tank.real("volume")?, 2.0 * (-1.0_f64).exp());
+/// # Ok::<(), fmi_component::Error>(())
+/// ```
+/// Any other type is refused, with what to write instead:
+/// ```compile_fail
+/// #[derive(fmi_component::Component)]
+/// struct A { #[output] x: std::time::Duration }
+/// # impl fmi_component::CoSimulation for A {
+/// #     fn do_step(&mut self, _: &mut fmi_component::Step) -> fmi_component::Result<()> { Ok(()) }
+/// # }
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no component",
     note = "write #[derive(Component)] above the struct"
@@ -55,6 +108,13 @@ pub trait Component: Sized + Send + 'static {
 /// Before each call the fields of the inputs and of the tunable parameters hold what the importer has set; those of the other
 /// parameters have it since [`CoSimulation::initialize`]. An error leaves the component as it was before the call. After a panic an
 /// FMU's instance only reads, restores, resets and frees.
+///
+/// A component without a step is refused:
+/// ```compile_fail
+/// #[derive(fmi_component::Component)]
+/// struct A { #[output] x: f64 }
+/// fmi_component::export_fmu!(A);
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no step",
     note = "write impl CoSimulation for {Self} {{ fn do_step(&mut self, step: &mut Step) -> Result<()> {{ .. }} }}"

@@ -88,6 +88,22 @@ def test_events_of_the_ball_and_the_stair_end_steps(folder: Path) -> None:
     assert {1.0, 2.0, 3.0} <= set(np.round(stair["time"], 12))
 
 
+def test_matrices_and_vectors_are_array_variables_where_it_is_asked_for(folder: Path) -> None:
+    fmu = str(folder / "StateSpace.arrays.fmu")
+    assert validate_fmu(fmu) == []
+    variables = {variable.name: variable for variable in read_model_description(fmu).modelVariables}
+    assert list(variables) == ["time", "A", "B", "C", "D", "x0", "u", "y", "x"]
+    assert [int(dimension.start) for dimension in variables["A"].dimensions] == [3, 3]
+    assert variables["A"].start == "1.0 0.0 0.0 0.0 1.0 0.0 0.0 0.0 1.0"
+    assert variables["u"].start == "1.0 2.0 3.0"
+    result = simulate_fmu(fmu, stop_time=10.0, step_size=1.0, output_interval=1.0, output=["y"])
+    expected = [[float(number) for number in text.split()] for text in published("StateSpace")["y"]]
+    assert np.array(result["y"]) == pytest.approx(np.array(expected), rel=1e-9)
+    doubled = "2 0 0 0 2 0 0 0 2"
+    other = simulate_fmu(fmu, stop_time=1.0, output_interval=1.0, start_values={"D": doubled}, output=["y"])
+    assert np.array(other["y"])[0] == pytest.approx([2.0, 4.0, 6.0])
+
+
 def test_the_first_fmu_of_the_readme_takes_25_lines_and_one_command(folder: Path, tmp_path: Path) -> None:
     readme = (CRATE / "README.md").read_text()
     blocks = re.findall(r"^```rust.*\n((?:.*\n)*?)```$", readme, re.MULTILINE)

@@ -52,7 +52,7 @@ pub struct Component {
     info: ModelInfo,
     structure: StructuralParameters,
     table: Arc<Table>,
-    /// Computed variables with an index become arrays (FMI 3.0), see [`fmi_component::arrays`].
+    /// Variables with an index become arrays (FMI 3.0), see [`fmi_component::arrays`].
     pub arrays: bool,
     /// When the FMU was made, as `2026-11-24T06:00:00Z`; none where the same bytes are wanted each time.
     pub date: Option<String>,
@@ -170,6 +170,12 @@ impl Component {
     /// Whether the FMU's variable that begins at `position` is an array.
     pub(crate) fn is_array(&self, position: usize) -> bool {
         self.arrays && arrays::begins(&self.table.variables()[position])
+    }
+
+    /// Lengths of the array that begins at `position`, the outermost first; none of a scalar.
+    pub(crate) fn dimensions(&self, position: usize) -> Vec<usize> {
+        let rows = self.table.variables().get(position..).filter(|_| self.arrays);
+        rows.and_then(arrays::dimensions).unwrap_or_default()
     }
 }
 

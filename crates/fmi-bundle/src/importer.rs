@@ -153,28 +153,28 @@ impl Instance {
     ///
     /// # Errors
     /// The library refuses.
-    pub fn initialize(&mut self, start: f64, inputs: &[(u32, f64)]) -> Result<()> {
+    pub fn initialize(&mut self, start: f64, inputs: &[(u32, Vec<f64>)]) -> Result<()> {
         let enter = self.library.symbol::<Enter>(c"fmi3EnterInitializationMode")?;
         let exit = self.library.symbol::<Plain>(c"fmi3ExitInitializationMode")?;
         // SAFETY: the signatures are those of the standard, the pointer is that of a living instance.
         let entered = unsafe { enter(self.pointer, 0, 0.0, start, 0, 0.0) };
         self.check("fmi3EnterInitializationMode", entered)?;
-        for (reference, value) in inputs {
-            self.set(*reference, *value)?;
+        for (reference, values) in inputs {
+            self.set(*reference, values)?;
         }
         // SAFETY: as above.
         let left = unsafe { exit(self.pointer) };
         self.check("fmi3ExitInitializationMode", left)
     }
 
-    /// Sets a real scalar.
+    /// Sets all elements of a real variable.
     ///
     /// # Errors
     /// The library refuses.
-    pub fn set(&mut self, reference: u32, value: f64) -> Result<()> {
+    pub fn set(&mut self, reference: u32, values: &[f64]) -> Result<()> {
         let set = self.library.symbol::<Set>(c"fmi3SetFloat64")?;
-        // SAFETY: the signature is that of the standard; both arrays have one element.
-        let status = unsafe { set(self.pointer, &reference, 1, &value, 1) };
+        // SAFETY: the signature is that of the standard; the arrays have the lengths given.
+        let status = unsafe { set(self.pointer, &reference, 1, values.as_ptr(), values.len()) };
         self.check("fmi3SetFloat64", status)
     }
 

@@ -18,7 +18,7 @@ Writes the model as FMUs for FMI 2.0 and FMI 3.0 into the present folder.
   --out FILE.fmu   file to write, with --fmi
   --library PATH   the library that exports the model, or a folder with those of several
                    systems; else the one that cargo built for this program
-  --arrays         elements of arrays that the model computes as one variable (FMI 3.0)
+  --arrays         the elements of an array as one variable (FMI 3.0)
 ";
 
 /// What the command line asks for.

@@ -45,6 +45,19 @@ pub struct ReplayReport {
     pub place: Option<(String, f64)>,
 }
 
+/// The inputs in a row of the table: each with its reference and its elements, which stand side by side.
+fn inputs_of(row: &[f64], inputs: &[usize], columns: &[Column]) -> Vec<(u32, Vec<f64>)> {
+    let mut list: Vec<(u32, Vec<f64>)> = Vec::new();
+    for index in inputs {
+        let (reference, value) = (columns[index - 1].reference, row[*index]);
+        match list.last_mut() {
+            Some((last, values)) if *last == reference => values.push(value),
+            _ => list.push((reference, vec![value])),
+        }
+    }
+    list
+}
+
 impl ReplayReport {
     /// Whether every difference is within [`TOLERANCE`].
     pub fn passes(&self) -> bool {
@@ -134,10 +147,8 @@ fn binary_path(description: &Description, held: &[String]) -> Result<String> {
 
 fn compare(mut instance: Instance, table: &Trajectory, columns: &[Column]) -> Result<ReplayReport> {
     let (inputs, outputs): (Vec<_>, Vec<_>) = (1..table.names.len()).partition(|index| columns[index - 1].input);
-    let first = inputs
-        .iter()
-        .map(|index| (columns[index - 1].reference, table.rows[0][*index]));
-    instance.initialize(table.rows[0][0], &first.collect::<Vec<_>>())?;
+    let first = inputs_of(&table.rows[0], &inputs, columns);
+    instance.initialize(table.rows[0][0], &first)?;
     let mut report = ReplayReport {
         rows: table.rows.len(),
         values: 0,
@@ -146,8 +157,8 @@ fn compare(mut instance: Instance, table: &Trajectory, columns: &[Column]) -> Re
         place: None,
     };
     for (number, row) in table.rows.iter().enumerate() {
-        for index in &inputs {
-            instance.set(columns[index - 1].reference, row[*index])?;
+        for (reference, values) in inputs_of(row, &inputs, columns) {
+            instance.set(reference, &values)?;
         }
         let mut arrays = HashMap::new();
         for index in &outputs {

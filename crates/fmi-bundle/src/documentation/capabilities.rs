@@ -109,7 +109,7 @@ fn inside_of_steps(component: &Component) -> String {
 
 fn array_variables(component: &Component) -> &'static str {
     match component.arrays {
-        true => "<b>Arrays.</b> Computed variables with an index are array variables.",
+        true => "<b>Arrays.</b> Variables with an index are array variables.",
         false => "<b>Arrays.</b> None: each element is a scalar variable with its number in its name, counted from 1.",
     }
 }

@@ -60,9 +60,11 @@ pub fn groups(component: &Component, causality: Causality) -> Vec<Group<'_>> {
     let spans = arrays::spans(variables).into_iter().enumerate().filter_map(begins);
     let group = |(first, count): (usize, usize)| {
         let variable = &variables[first];
+        let lengths = arrays::dimensions(&variables[first..]).unwrap_or_default();
+        let ranges: Vec<String> = lengths.iter().map(|length| format!("1..{length}")).collect();
         let name = match count {
             1 => variable.name.clone(),
-            _ => format!("{}[1..{count}]", arrays::name(&variable.name)),
+            _ => format!("{}[{}]", arrays::name(&variable.name), ranges.join(",")),
         };
         (variable.causality == causality).then_some(Group {
             first,

@@ -74,7 +74,11 @@ fn row(component: &Component, group: &Group, shown: Shown) -> String {
         escape(group.unit())
     );
     if settable {
-        cells.push_str(&format!("<td class=\"number\">{}</td>", start(variable)));
+        let elements = &component.table().variables()[group.first..group.first + group.count];
+        let starts: Vec<String> = elements.iter().map(start).collect();
+        let same = starts.iter().all(|start| *start == starts[0]);
+        let text = if same { starts[0].clone() } else { starts.join(" ") };
+        cells.push_str(&format!("<td class=\"number\">{text}</td>"));
     }
     let description = group.description();
     cells.push_str(&format!("<td class=\"text\">{}</td>", escape(description.as_str())));

@@ -58,6 +58,11 @@ fn write_variable(xml: &mut Xml, layout: &Layout<'_>, position: usize) -> io::Re
         Kind::Binary { .. } => ("", "Binary"), // FMI 2.0 leaves it out
     };
     let mut list = details(variable, layout.version);
+    if array && let Some((_, start)) = list.iter_mut().find(|(key, _)| *key == "start") {
+        let elements = (position..position + layout.spans[position]).map(|element| layout.variable(element));
+        let starts: Vec<String> = elements.map(|element| number(element.start().to_f64())).collect();
+        *start = starts.join(" ");
+    }
     if let Some(integral) = layout.integrals[position] {
         let target = match layout.version {
             Version::Two => layout.index(integral),
@@ -66,7 +71,7 @@ fn write_variable(xml: &mut Xml, layout: &Layout<'_>, position: usize) -> io::Re
         list.push(("derivative", target));
     }
     let inner = match variable.kind.start_bytes().filter(|_| variable.causality.is_settable()) {
-        _ if array => Inner::Dimension(layout.spans[position]),
+        _ if array => Inner::Dimensions(layout.component.dimensions(position)),
         Some(bytes) => Inner::Start(start_text(variable, bytes)),
         None => Inner::None,
     };
@@ -76,8 +81,8 @@ fn write_variable(xml: &mut Xml, layout: &Layout<'_>, position: usize) -> io::Re
 /// What FMI 3.0 writes inside of the element of a variable.
 enum Inner {
     None,
-    /// Elements of an array.
-    Dimension(usize),
+    /// Lengths of an array.
+    Dimensions(Vec<usize>),
     /// Start value of a text or, in hexadecimal digits, of a binary variable.
     Start(String),
 }
@@ -107,12 +112,18 @@ fn element(
         }
         Version::Three => {
             about.extend(details);
-            let (element, content) = match inner {
+            let (element, contents) = match inner {
                 Inner::None => return xml::empty(xml, kinds.1, &about),
-                Inner::Dimension(elements) => ("Dimension", ("start", elements.to_string())),
-                Inner::Start(text) => ("Start", ("value", text)),
+                Inner::Dimensions(lengths) => {
+                    let lengths = lengths.into_iter().map(|length| ("start", length.to_string()));
+                    ("Dimension", lengths.collect())
+                }
+                Inner::Start(text) => ("Start", vec![("value", text)]),
             };
-            xml::element(xml, kinds.1, &about, |xml| xml::empty(xml, element, &vec![content]))
+            xml::element(xml, kinds.1, &about, |xml| {
+                let mut contents = contents.into_iter();
+                contents.try_for_each(|content| xml::empty(xml, element, &vec![content]))
+            })
         }
     }
 }

@@ -36,7 +36,8 @@ pub struct Description {
 #[derive(Default)]
 struct Described {
     reference: u32,
-    span: Option<usize>,
+    /// Lengths of an array, the outermost first.
+    dimensions: Vec<usize>,
     nominal: Option<f64>,
     declared_type: Option<String>,
     input: bool,
@@ -88,14 +89,14 @@ impl Description {
             }
             "Dimension" => {
                 if let Some(entry) = last.as_ref().and_then(|name| self.variables.get_mut(name)) {
-                    entry.span = number("start").map(|span| span as usize);
+                    entry.dimensions.extend(number("start").map(|length| length as usize));
                 }
             }
             _ => match (get("name"), number("valueReference")) {
                 (Some(name), Some(reference)) => {
                     let entry = Described {
                         reference: reference as u32,
-                        span: None,
+                        dimensions: Vec::new(),
                         nominal: number("nominal"),
                         declared_type: get("declaredType").cloned(),
                         input: get("causality").is_some_and(|causality| causality == "input"),
@@ -117,13 +118,14 @@ impl Description {
     /// The variable called `name`, or the array that it is an element of.
     pub fn column(&self, name: &str) -> Option<Column> {
         let (entry, offset) = match self.variables.get(name) {
-            Some(entry) => (entry, 0),
+            Some(entry) => (entry, Some(0)),
             None => {
-                let (stem, index) = name.strip_suffix(']')?.rsplit_once('[')?;
-                (self.variables.get(stem)?, index.parse::<usize>().ok()?.checked_sub(1)?)
+                let (stem, indices) = name.strip_suffix(']')?.rsplit_once('[')?;
+                let entry = self.variables.get(stem)?;
+                (entry, offset(&entry.dimensions, indices))
             }
         };
-        let span = entry.span.unwrap_or(1);
+        let (offset, span) = (offset?, entry.dimensions.iter().product());
         let of_type = || self.types.get(entry.declared_type.as_ref()?).copied();
         (offset < span).then_some(Column {
             reference: entry.reference,
@@ -133,4 +135,15 @@ impl Description {
             input: entry.input,
         })
     }
+}
+
+/// Place of the element with these `indices`, such as `2` or `1,3`, among those of an array, counted from 0.
+fn offset(dimensions: &[usize], indices: &str) -> Option<usize> {
+    let indices: Vec<usize> = indices
+        .split(',')
+        .map(|index| index.parse::<usize>().ok()?.checked_sub(1))
+        .collect::<Option<_>>()?;
+    let fit = indices.len() == dimensions.len() && indices.iter().zip(dimensions).all(|(index, length)| index < length);
+    let pairs = indices.iter().zip(dimensions);
+    fit.then(|| pairs.fold(0, |before, (index, length)| before * length + index))
 }

@@ -233,7 +233,7 @@ impl Component {
         Ok(())
     }
 
-    /// Sets variables from the importer's array: all, or none if one is refused. Nothing that can be set is an array.
+    /// Sets variables from the importer's array: all, or none if one is refused.
     ///
     /// # Safety
     /// As for [`Arrays`].
@@ -246,15 +246,21 @@ impl Component {
         access: Access,
         convert: impl Fn(T) -> Result<Value>,
     ) -> Result<()> {
-        memory::check_length(arrays.length, arrays.count, "the array of values")?;
         // SAFETY: by the caller's promise.
         let references = unsafe { memory::slice(arrays.references, arrays.count, "the array of value references") }?;
+        if arrays.length != arrays.count {
+            let elements = references.iter().map(|reference| self.instance.span(*reference)).sum();
+            memory::check_length(arrays.length, elements, "the array of values")?;
+        }
         // SAFETY: by the caller's promise.
-        let values = unsafe { memory::slice(arrays.values, arrays.count, "the array of values") }?;
+        let values = unsafe { memory::slice(arrays.values, arrays.length, "the array of values") }?;
         // Values that cannot be held are refused before any is stored; it costs nothing where all can.
         values.iter().try_for_each(|value| convert(*value).map(|_| ()))?;
         let convert = |index: usize| convert(values[index]).unwrap_or(Value::Integer(0));
-        self.instance.set(references, access, convert)
+        match arrays.length == arrays.count {
+            true => self.instance.set(references, access, convert),
+            false => self.instance.set_elements(references, access, arrays.length, convert),
+        }
     }
 }
 

@@ -104,7 +104,7 @@ pub(super) struct Slot {
 }
 
 impl Slot {
-    /// Those of `variables`, of which the computed ones with an index are `arrays` or scalars.
+    /// Those of `variables`, of which those with an index are `arrays` or scalars.
     pub(super) fn of(variables: &[Variable], arrays: bool) -> Vec<Self> {
         let spans = match arrays {
             true => arrays::spans(variables),
@@ -272,13 +272,51 @@ impl Instance {
         })
     }
 
-    /// Stores all values or, if one of them is refused, none.
+    /// Stores a value for each of `references`, which are scalars, or, if one of them is refused, none.
     ///
     /// # Errors
     /// Unknown reference, other type, not to be set in this phase or at all, not finite, out of range.
     pub fn set(&mut self, references: &[u32], access: Access, value: impl Fn(usize) -> Value) -> Result<()> {
-        let position = |instance: &Self, index: usize| instance.position(references[index], access);
+        let position = |instance: &Self, index: usize| instance.scalar_position(references[index], access);
         self.set_positions(references.len(), position, value)
+    }
+
+    /// Stores `count` values for the elements of `references`, one variable after the other, or, if one of them is refused, none.
+    ///
+    /// # Errors
+    /// As [`Instance::set`]; another number of values.
+    pub fn set_elements(
+        &mut self,
+        references: &[u32],
+        access: Access,
+        count: usize,
+        value: impl Fn(usize) -> Value,
+    ) -> Result<()> {
+        let mut positions = Vec::with_capacity(count);
+        for reference in references {
+            let first = self.position(*reference, access)?;
+            positions.extend(first..first + self.span(*reference));
+        }
+        if positions.len() != count {
+            return Err(Error::call(
+                format!("{count} values for variables with {} elements", positions.len()),
+                "Pass as many values as the dimensions say.",
+            ));
+        }
+        self.set_positions(count, |_, index| Ok(positions[index]), value)
+    }
+
+    /// Position of the scalar behind `reference`, if it can be accessed so.
+    #[inline]
+    fn scalar_position(&self, reference: u32, access: Access) -> Result<usize> {
+        let position = self.position(reference, access)?;
+        match self.slots[position].span {
+            1 => Ok(position),
+            elements => Err(Error::call(
+                format!("value reference {reference} is an array of {elements} elements, and one value is given"),
+                "Pass as many values as the dimensions say.",
+            )),
+        }
     }
 
     /// Contents of the text or binary variable behind `reference`.

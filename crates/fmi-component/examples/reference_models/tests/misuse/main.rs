@@ -358,3 +358,39 @@ fn binary(client: &Client, input: u32, output: u32) {
     assert_eq!(set(null(), 0), Ok, "nothing is a value too");
     assert_eq!(get(input), b"");
 }
+
+/// An importer sets and reads an array as one variable; a wrong number of values is refused.
+#[test]
+fn arrays_are_set_and_read_as_one_variable() {
+    let (name, model) = &ALL[5];
+    let structure = fmi_component::StructuralParameters::defaults(&(model.info)());
+    let mut subject = subject(name, model);
+    let token = fmi_component::token::write(&(model.info)(), &structure, &subject.variables, true);
+    subject.token = std::ffi::CString::new(token).unwrap();
+    let client = Client::new(&subject, true);
+    let find = |name: &str| client.find(|variable| variable.name == name).unwrap();
+    let (matrix, input, output, state) = (find("D[1,1]"), find("u[1]"), find("y[1]"), find("x0[1]"));
+    let set = |references: &[u32], values: &[f64]| {
+        call!(subject, fmi3SetFloat64(
+            client.pointer => Opaque, references.as_ptr() => *const u32, references.len() => usize,
+            values.as_ptr() => *const f64, values.len() => usize,
+        ) -> Status)
+    };
+    let swap = [0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+    assert_eq!(set(&[matrix, input], &[&swap[..], &[5.0, 6.0, 7.0]].concat()), Ok);
+    for (references, values) in [
+        (&[input][..], &[1.0][..]),
+        (&[input], &[1.0, 2.0]),
+        (&[input, state], &[1.0, 2.0]),
+        (&[input + 1], &[1.0]),
+        (&[input, state], &[1.0, 2.0, 3.0, 4.0, 5.0, f64::NAN]),
+    ] {
+        assert_eq!(set(references, values), Error, "{references:?} {values:?}");
+    }
+    assert_eq!((client.enter(), client.exit()), (Ok, Ok));
+    let mut values = [f64::NAN; 3];
+    assert_eq!(client.get_real(&output, 1, values.as_mut_ptr(), 3), Ok);
+    assert_eq!(values, [6.0, 5.0, 7.0]);
+    assert_eq!(client.get_real(&input, 1, values.as_mut_ptr(), 3), Ok);
+    assert_eq!(values, [5.0, 6.0, 7.0]);
+}

@@ -1,5 +1,5 @@
-"""Structs with `#[derive(Component)]` become valid FMUs of both versions: the first one of the README of `fmi-component`, and the
-models of the Reference FMUs, which compute what the Modelica Association publishes."""
+"""Structs with `#[derive(Component)]` become valid FMUs of both versions: the first one of the README of `fmi-component`,
+and the models of the Reference FMUs, which compute what the Modelica Association publishes."""
 
 import csv
 import os

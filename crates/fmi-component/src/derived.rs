@@ -10,7 +10,7 @@ pub use serde;
 use crate::enumeration::Enumeration;
 use crate::error::{Error, Result};
 use crate::kind::{Kind, Quantity, WholeSize};
-use crate::row::{Read, Row};
+use crate::row::{Fill, Read, Row};
 use crate::unit::Unit;
 use crate::value::Value;
 use crate::values::Values;
@@ -102,7 +102,7 @@ pub fn number<T: WholeNumber>(value: T) -> i64 {
 }
 
 /// Reads elements of an array from an index on.
-type Fill<M> = fn(&M, usize, &mut [f64]);
+type ReadElements<M> = fn(&M, usize, &mut [f64]);
 
 /// The rows of an array, each a scalar: `name[1]`, or `name[1,1]` with two dimensions.
 pub fn array<M: 'static>(
@@ -112,10 +112,10 @@ pub fn array<M: 'static>(
     kind: Kind,
     dimensions: &[usize],
     start: &[f64],
-    fill: Option<Fill<M>>,
+    fill: Option<ReadElements<M>>,
 ) -> Vec<Row<M>> {
     let count = start.len();
-    let shared: Option<Arc<dyn Fn(&M, usize, &mut [f64]) + Send + Sync>> = match fill {
+    let shared: Option<Fill<M>> = match fill {
         Some(fill) => Some(Arc::new(fill)),
         None => None,
     };

@@ -4,6 +4,8 @@
 //! a state saved in any phase brings back the same bits. Not here: pointers, panics and log messages (`c_api`), legal phases
 //! (`life_cycle`), the state itself ([`Simulation`](crate::Simulation)).
 
+mod access;
+mod contents;
 mod saving;
 mod stepping;
 mod values;
@@ -22,11 +24,12 @@ use crate::token;
 use crate::unit::Unit;
 use crate::value::Value;
 use crate::variable::Causality;
+pub use access::Access;
+use access::Slot;
 pub use saving::Snapshot;
 pub use stepping::Part;
 use stepping::UnderWay;
-use values::Slot;
-pub use values::{Access, does_not_fit};
+pub use values::does_not_fit;
 
 /// What the importer said that it can do when it made the instance (FMI 3.0; in FMI 2.0 nothing of this).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

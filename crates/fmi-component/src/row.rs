@@ -10,7 +10,7 @@ use crate::value::Value;
 use crate::variable::{Causality, TerminalMember, Variable};
 
 /// Fills a slice with the elements of a real array from an index on, counted from 0.
-type Fill<M> = Arc<dyn Fn(&M, usize, &mut [f64]) + Send + Sync>;
+pub(crate) type Fill<M> = Arc<dyn Fn(&M, usize, &mut [f64]) + Send + Sync>;
 
 /// How the value of a computed variable is read from a model. Reading changes nothing.
 pub enum Read<M> {

@@ -1,127 +1,13 @@
-//! Values of an instance by value reference: who may read or set what, when, and as which type.
+//! Numbers of an instance by value reference: who may read or set what, and when.
 
 use super::Instance;
-use crate::arrays;
+use super::access::{Access, Slot};
 use crate::error::{Error, Result};
-use crate::kind::{Kind, WholeSize};
+use crate::kind::Kind;
 use crate::life_cycle::Phase;
 use crate::standard::TIME_REFERENCE;
 use crate::value::Value;
 use crate::variable::{Causality, Variable};
-
-/// The type by which an importer reads or writes a variable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Access {
-    /// `fmi3Float64`.
-    Real,
-    /// `fmi3Int32`.
-    Integer,
-    /// `fmi3Int64`, which serves enumerations too.
-    Long,
-    /// `fmi2Integer`, which serves all whole numbers.
-    AnyInteger,
-    /// `fmi2Real`, which serves reals of either size.
-    AnyReal,
-    /// `fmi3Float32`.
-    Single,
-    /// `fmi3Int8`.
-    Int8,
-    /// `fmi3UInt8`.
-    UInt8,
-    /// `fmi3Int16`.
-    Int16,
-    /// `fmi3UInt16`.
-    UInt16,
-    /// `fmi3UInt32`.
-    UInt32,
-    /// `fmi3UInt64`.
-    UInt64,
-    /// `fmi2Boolean`, `fmi3Boolean`.
-    Boolean,
-    /// `fmi2String`, `fmi3String`.
-    Text,
-    /// `fmi3Binary`.
-    Binary,
-}
-
-impl Access {
-    const ALL: [Self; 15] = [
-        Self::Real,
-        Self::Integer,
-        Self::Long,
-        Self::AnyInteger,
-        Self::AnyReal,
-        Self::Single,
-        Self::Int8,
-        Self::UInt8,
-        Self::Int16,
-        Self::UInt16,
-        Self::UInt32,
-        Self::UInt64,
-        Self::Boolean,
-        Self::Text,
-        Self::Binary,
-    ];
-
-    /// A count or an option among the outputs may be read as a real too: there are importers that read all outputs so.
-    fn fits(self, variable: &Variable) -> bool {
-        let is_real = matches!(self, Self::Real | Self::AnyReal);
-        let read_as_real = is_real && variable.causality == Causality::Output;
-        match variable.kind {
-            Kind::Real(_) => is_real,
-            Kind::Single(_) => matches!(self, Self::Single | Self::AnyReal),
-            Kind::Integer { .. } => matches!(self, Self::Integer | Self::AnyInteger) || read_as_real,
-            Kind::Enumeration { .. } => matches!(self, Self::Long | Self::AnyInteger) || read_as_real,
-            Kind::Long { .. } => matches!(self, Self::Long | Self::AnyInteger),
-            Kind::Sized { size, .. } => self == Self::AnyInteger || self == Self::of(size),
-            Kind::Boolean { .. } => self == Self::Boolean,
-            Kind::Text { .. } => self == Self::Text,
-            Kind::Binary { .. } => self == Self::Binary,
-        }
-    }
-
-    fn of(size: WholeSize) -> Self {
-        match size {
-            WholeSize::Int8 => Self::Int8,
-            WholeSize::UInt8 => Self::UInt8,
-            WholeSize::Int16 => Self::Int16,
-            WholeSize::UInt16 => Self::UInt16,
-            WholeSize::UInt32 => Self::UInt32,
-            WholeSize::UInt64 => Self::UInt64,
-        }
-    }
-}
-
-/// What each get and set looks up of a variable.
-pub(super) struct Slot {
-    /// Elements of the variable: 1 for a scalar, 0 inside of an array.
-    span: usize,
-    /// Bit n is set if access number n fits.
-    accesses: u16,
-    computed: bool,
-    /// Of a [`Kind::Real`].
-    real: bool,
-}
-
-impl Slot {
-    /// Those of `variables`, of which those with an index are `arrays` or scalars.
-    pub(super) fn of(variables: &[Variable], arrays: bool) -> Vec<Self> {
-        let spans = match arrays {
-            true => arrays::spans(variables),
-            false => vec![1; variables.len()],
-        };
-        let slot = |(variable, span): (&Variable, usize)| Self {
-            span,
-            accesses: Access::ALL
-                .iter()
-                .map(|access| u16::from(access.fits(variable)) << *access as u16)
-                .sum(),
-            computed: !variable.causality.is_settable(),
-            real: matches!(variable.kind, Kind::Real(_)),
-        };
-        variables.iter().zip(spans).map(slot).collect()
-    }
-}
 
 impl Instance {
     /// Elements of the variable behind `reference`: 1 for a scalar, and for a reference that will be refused.
@@ -319,36 +205,8 @@ impl Instance {
         }
     }
 
-    /// Contents of the text or binary variable behind `reference`.
-    ///
-    /// # Errors
-    /// As [`Instance::get`].
-    pub fn get_bytes(&mut self, reference: u32, access: Access) -> Result<&[u8]> {
-        let position = self.position(reference, access)?;
-        self.check_readable(position)?;
-        self.simulation.bytes(position)
-    }
-
-    /// Stores the contents of texts or binary variables or, if one of them is refused, none.
-    ///
-    /// # Errors
-    /// As [`Instance::set`]; a text that holds a zero byte.
-    pub fn set_bytes(&mut self, references: &[u32], access: Access, contents: &[&[u8]]) -> Result<()> {
-        for (reference, bytes) in references.iter().zip(contents) {
-            let variable = &self.table.variables()[self.position(*reference, access)?];
-            self.check_settable(variable)?;
-            variable.check_bytes(bytes)?;
-        }
-        self.forget_model(references.len());
-        for (reference, bytes) in references.iter().zip(contents) {
-            let position = self.position(*reference, access)?;
-            self.simulation.set_bytes_at(position, bytes)?;
-        }
-        Ok(())
-    }
-
     /// Before `count` values are stored: a model of the old ones may have been built for reading outputs in initialization mode.
-    fn forget_model(&mut self, count: usize) {
+    pub(super) fn forget_model(&mut self, count: usize) {
         if self.phase == Phase::Initialization && count > 0 {
             self.simulation.stop();
         }
@@ -382,7 +240,7 @@ impl Instance {
 
     /// Whether there is a value at `position`. In initialization mode a model of the values as they stand is built, if need be.
     #[inline]
-    fn check_readable(&mut self, position: usize) -> Result<()> {
+    pub(super) fn check_readable(&mut self, position: usize) -> Result<()> {
         if self.slots[position].computed {
             match self.phase {
                 Phase::Instantiated => return Err(not_computed(&self.table.variables()[position])),
@@ -394,7 +252,7 @@ impl Instance {
         Ok(())
     }
 
-    fn check_settable(&self, variable: &Variable) -> Result<()> {
+    pub(super) fn check_settable(&self, variable: &Variable) -> Result<()> {
         let before = matches!(self.phase, Phase::Instantiated | Phase::Initialization);
         let inside = self.phase == Phase::IntermediateUpdate && self.input_parts > 0;
         let running = inside || matches!(self.phase, Phase::Event | Phase::Step);
@@ -413,7 +271,7 @@ impl Instance {
 
     /// Position of the variable behind `reference`, if it can be accessed so.
     #[inline]
-    fn position(&self, reference: u32, access: Access) -> Result<usize> {
+    pub(super) fn position(&self, reference: u32, access: Access) -> Result<usize> {
         match self.slot(reference) {
             Some(slot) if slot.span > 0 && slot.accesses >> access as u8 & 1 == 1 => Ok(reference as usize - 1),
             slot => Err(self.no_access(reference, slot)),

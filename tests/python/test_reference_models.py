@@ -79,13 +79,20 @@ def test_fmi_2_leaves_binary_variables_out(folder: Path) -> None:
 
 
 def test_events_of_the_ball_and_the_stair_end_steps(folder: Path) -> None:
-    ball = simulate_fmu(str(folder / "BouncingBall.fmi3.fmu"), stop_time=3.0, output_interval=0.5, record_events=True)
-    impacts = ball["time"][np.flatnonzero(np.diff(ball["time"]) == 0.0)]
-    first = np.sqrt(2.0 / 9.81)
+    def times(name: str, stop: float, interval: float) -> np.ndarray:
+        result = simulate_fmu(
+            str(folder / f"{name}.fmi3.fmu"),
+            stop_time=stop,
+            output_interval=interval,
+            early_return_allowed=True,
+            use_event_mode=True,
+        )
+        return np.unique(np.round(result["time"], 9))
+
+    impacts = set(times("BouncingBall", 3.0, 0.5)) - {0.5 * i for i in range(7)}
     assert len(impacts) > 6
-    assert impacts[0] == pytest.approx(first, abs=2e-3)
-    stair = simulate_fmu(str(folder / "Stair.fmi3.fmu"), stop_time=3.5, output_interval=0.7, record_events=True)
-    assert {1.0, 2.0, 3.0} <= set(np.round(stair["time"], 12))
+    assert min(impacts) == pytest.approx(np.sqrt(2.0 / 9.81), abs=2e-3)
+    assert {1.0, 2.0, 3.0} <= set(times("Stair", 3.5, 0.7))
 
 
 def test_matrices_and_vectors_are_array_variables_where_it_is_asked_for(folder: Path) -> None:

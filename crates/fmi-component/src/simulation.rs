@@ -50,6 +50,17 @@ pub struct Simulation<M> {
     outside: Vec<Warning>,
 }
 
+/// What keeps a variable from being set.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Hold {
+    /// Nothing.
+    Free,
+    /// A tunable parameter of a model that has started, which takes it over in the next step.
+    Tunable,
+    /// Another parameter of a model that has started.
+    Frozen,
+}
+
 impl<M: Model> Simulation<M> {
     /// The model with these structural parameters (defaults for those not named), started at time 0; `given` holds the
     /// parameters, and the inputs at the start, that differ from the start values.
@@ -145,27 +156,35 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// As [`Simulation::set`].
     pub fn set_at(&mut self, position: usize, value: impl Into<Value>) -> Result<()> {
-        let tunes = self.check_frozen(position)?;
+        let hold = self.hold(position);
+        if hold == Hold::Frozen {
+            return Err(self.frozen(position));
+        }
         self.values.set(position, value.into())?;
-        self.retuned |= tunes;
+        self.retuned |= hold == Hold::Tunable;
         Ok(())
     }
 
-    /// Whether a tunable parameter of a model that has started is at `position`.
-    ///
-    /// # Errors
-    /// Another parameter is, which is frozen.
+    /// Whether the variable at `position` is a parameter of a model that has started, and of which sort.
     #[inline]
-    fn check_frozen(&self, position: usize) -> Result<bool> {
-        let variable = self.table().variables().get(position);
-        let started = variable.filter(|variable| variable.causality == Causality::Parameter && self.is_started());
-        match started {
-            Some(variable) if !variable.tunable => Err(Error::call(
-                format!("{} is a parameter, frozen since the start", variable.name),
-                "Give it when the simulation is made.",
-            )),
-            parameter => Ok(parameter.is_some()),
+    fn hold(&self, position: usize) -> Hold {
+        match self.table().variables().get(position) {
+            Some(variable) if variable.causality == Causality::Parameter && self.is_started() => match variable.tunable
+            {
+                true => Hold::Tunable,
+                false => Hold::Frozen,
+            },
+            _ => Hold::Free,
         }
+    }
+
+    #[cold]
+    fn frozen(&self, position: usize) -> Error {
+        let name = self.variables().get(position).map_or("", |variable| &variable.name);
+        Error::call(
+            format!("{name} is a parameter, frozen since the start"),
+            "Give it when the simulation is made.",
+        )
     }
 
     /// Position of the variable called `name`: the same for as long as the simulation lives.

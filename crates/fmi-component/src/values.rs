@@ -73,7 +73,10 @@ impl Values {
     /// # Errors
     /// No parameter or input there, another type, or a text that is not UTF-8 or holds a zero byte.
     pub fn set_bytes(&mut self, position: usize, bytes: &[u8]) -> Result<()> {
-        self.settable(position)?.check_bytes(bytes)?;
+        let Some(variable) = self.table.settable().get(position) else {
+            return Err(self.not_settable(position));
+        };
+        variable.check_bytes(bytes)?;
         let Ok(index) = self.table.bytes().binary_search(&position) else {
             return Err(self.table.no_variable(position));
         };
@@ -88,19 +91,12 @@ impl Values {
     /// # Errors
     /// No parameter or input there, another type, or out of range.
     pub fn set(&mut self, position: usize, value: Value) -> Result<()> {
-        let variable = self.settable(position)?;
+        let Some(variable) = self.table.settable().get(position) else {
+            return Err(self.not_settable(position));
+        };
         variable.check(value)?;
-        let stored = stored(&variable.kind, value);
-        self.values[position] = stored;
+        self.values[position] = stored(&variable.kind, value);
         Ok(())
-    }
-
-    #[inline]
-    fn settable(&self, position: usize) -> Result<&Variable> {
-        self.table
-            .settable()
-            .get(position)
-            .ok_or_else(|| self.not_settable(position))
     }
 
     #[cold]

@@ -179,7 +179,20 @@ impl Variable {
     ///
     /// # Errors
     /// Another type, not finite, or out of range.
+    #[inline]
     pub fn check(&self, value: Value) -> Result<()> {
+        // The path of signals, small enough to be part of each setter.
+        match (&self.kind, value) {
+            (Kind::Real(quantity), Value::Real(real))
+                if real.is_finite() && (quantity.min..=quantity.max).contains(&real) =>
+            {
+                Ok(())
+            }
+            _ => self.check_any(value),
+        }
+    }
+
+    fn check_any(&self, value: Value) -> Result<()> {
         let fits = match (&self.kind, value) {
             (Kind::Real(quantity) | Kind::Single(quantity), Value::Real(real)) => {
                 real.is_finite() && (quantity.min..=quantity.max).contains(&real)

@@ -1,7 +1,5 @@
 //! Values of variables: getters and setters of every type, alike in both versions but for the names of the functions.
 
-use std::fmt::Display;
-
 use super::component::{Component, Entry};
 use super::types::Status;
 use crate::error::{Error, Result};
@@ -73,7 +71,7 @@ pub unsafe fn get_boolean<T: From<bool>>(entry: Entry, arrays: Arrays<*mut T>) -
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn set_real(entry: Entry, arrays: Arrays<*const f64>) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.set(|component| component.set(arrays, real_of(entry), |value| Ok(Value::Real(value)))) }
+    unsafe { entry.set(|component| component.set(arrays, real_of(entry), |value| Some(Value::Real(value)))) }
 }
 
 /// `fmi3SetFloat32`.
@@ -82,22 +80,15 @@ pub unsafe fn set_real(entry: Entry, arrays: Arrays<*const f64>) -> Status {
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn set_single(entry: Entry, arrays: Arrays<*const f32>) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.set(|component| component.set(arrays, Access::Single, |value| Ok(Value::Real(value.into())))) }
+    unsafe { entry.set(|component| component.set(arrays, Access::Single, |value| Some(Value::Real(value.into())))) }
 }
 
 /// `fmi2SetInteger` and the setters of whole numbers of FMI 3.0.
 ///
 /// # Safety
 /// As for [`Entry::change`] and [`Arrays`].
-pub unsafe fn set_whole<T: TryInto<i64> + Copy + Display>(
-    entry: Entry,
-    arrays: Arrays<*const T>,
-    access: Access,
-) -> Status {
-    let convert = |value: T| {
-        let held = value.try_into().map_err(|_| above_what_is_held(&value.to_string()));
-        held.map(Value::Integer)
-    };
+pub unsafe fn set_whole<T: TryInto<i64> + Copy>(entry: Entry, arrays: Arrays<*const T>, access: Access) -> Status {
+    let convert = |value: T| value.try_into().ok().map(Value::Integer);
     // SAFETY: passed on.
     unsafe { entry.set(|component| component.set(arrays, access, convert)) }
 }
@@ -107,7 +98,7 @@ pub unsafe fn set_whole<T: TryInto<i64> + Copy + Display>(
 /// # Safety
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn set_boolean<T: Default + PartialEq + Copy>(entry: Entry, arrays: Arrays<*const T>) -> Status {
-    let convert = |value: T| Ok(Value::from(value != T::default()));
+    let convert = |value: T| Some(Value::from(value != T::default()));
     // SAFETY: passed on.
     unsafe { entry.set(|component| component.set(arrays, Access::Boolean, convert)) }
 }
@@ -121,11 +112,11 @@ fn real_of(entry: Entry) -> Access {
 }
 
 #[cold]
-fn above_what_is_held(value: &str) -> Error {
-    Error::parameter(
-        "value of a UInt64",
-        value,
-        "at most 9223372036854775807, since whole numbers are held with a sign",
+fn above_what_is_held(reference: u32) -> Error {
+    Error::call(
+        format!(
+            "the value for value reference {reference} is above 9223372036854775807, the largest whole number that is held"
+        ),
         "Give a smaller one.",
     )
 }
@@ -244,7 +235,7 @@ impl Component {
         &mut self,
         arrays: Arrays<*const T>,
         access: Access,
-        convert: impl Fn(T) -> Result<Value>,
+        convert: impl Fn(T) -> Option<Value>,
     ) -> Result<()> {
         // SAFETY: by the caller's promise.
         let references = unsafe { memory::slice(arrays.references, arrays.count, "the array of value references") }?;
@@ -254,8 +245,10 @@ impl Component {
         }
         // SAFETY: by the caller's promise.
         let values = unsafe { memory::slice(arrays.values, arrays.length, "the array of values") }?;
-        // Values that cannot be held are refused before any is stored; it costs nothing where all can.
-        values.iter().try_for_each(|value| convert(*value).map(|_| ()))?;
+        // Refused before any is stored; it costs nothing where all can be held.
+        if let Some(index) = values.iter().position(|value| convert(*value).is_none()) {
+            return Err(above_what_is_held(references.get(index).copied().unwrap_or_default()));
+        }
         let convert = |index: usize| convert(values[index]).unwrap_or(Value::Integer(0));
         match arrays.length == arrays.count {
             true => self.instance.set(references, access, convert),

@@ -163,7 +163,10 @@ impl Instance {
     /// # Errors
     /// Unknown reference, other type, not to be set in this phase or at all, not finite, out of range.
     pub fn set(&mut self, references: &[u32], access: Access, value: impl Fn(usize) -> Value) -> Result<()> {
-        let position = |instance: &Self, index: usize| instance.scalar_position(references[index], access);
+        if let Some(array) = references.iter().find(|reference| self.span(**reference) > 1) {
+            return Err(self.one_value_for_an_array(*array));
+        }
+        let position = |instance: &Self, index: usize| instance.position(references[index], access);
         self.set_positions(references.len(), position, value)
     }
 
@@ -192,17 +195,13 @@ impl Instance {
         self.set_positions(count, |_, index| Ok(positions[index]), value)
     }
 
-    /// Position of the scalar behind `reference`, if it can be accessed so.
-    #[inline]
-    fn scalar_position(&self, reference: u32, access: Access) -> Result<usize> {
-        let position = self.position(reference, access)?;
-        match self.slots[position].span {
-            1 => Ok(position),
-            elements => Err(Error::call(
-                format!("value reference {reference} is an array of {elements} elements, and one value is given"),
-                "Pass as many values as the dimensions say.",
-            )),
-        }
+    #[cold]
+    fn one_value_for_an_array(&self, reference: u32) -> Error {
+        let elements = self.span(reference);
+        Error::call(
+            format!("value reference {reference} is an array of {elements} elements, and one value is given"),
+            "Pass as many values as the dimensions say.",
+        )
     }
 
     /// Before `count` values are stored: a model of the old ones may have been built for reading outputs in initialization mode.

@@ -1,6 +1,6 @@
 //! Booleans, texts and binary variables of a simulation.
 
-use super::Simulation;
+use super::{Hold, Simulation};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::row::Read;
@@ -19,8 +19,11 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// As [`Simulation::set_bytes`].
     pub fn set_bytes_at(&mut self, position: usize, bytes: &[u8]) -> Result<()> {
-        self.check_frozen(position)?;
-        self.values.set_bytes(position, bytes)
+        match self.hold(position) {
+            // Texts are not tunable.
+            Hold::Free => self.values.set_bytes(position, bytes),
+            Hold::Tunable | Hold::Frozen => Err(self.frozen(position)),
+        }
     }
 
     /// The boolean called `name`, as of now.

@@ -344,7 +344,7 @@ fn binary(client: &Client, input: u32, output: u32) {
         unsafe { std::slice::from_raw_parts(bytes, size) }.to_vec()
     };
     assert_eq!(get(output), b"foo");
-    assert_eq!(set(b"\0\xff\0".as_ptr(), 3), Ok);
+    assert_eq!(set([0, 255, 0].as_ptr(), 3), Ok);
     assert_eq!(get(input), b"\0\xff\0");
     assert_eq!(set(null(), 5), Error, "no bytes");
     assert_eq!(set([0].as_ptr(), usize::MAX), Error, "more bytes than memory has");

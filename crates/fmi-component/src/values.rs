@@ -94,8 +94,13 @@ impl Values {
         let Some(variable) = self.table.settable().get(position) else {
             return Err(self.not_settable(position));
         };
-        variable.check(value)?;
-        self.values[position] = stored(&variable.kind, value);
+        self.values[position] = match variable.signal(value) {
+            Some(real) => Value::Real(real + 0.0), // as `stored` has it
+            None => {
+                variable.check(value)?;
+                stored(&variable.kind, value)
+            }
+        };
         Ok(())
     }
 

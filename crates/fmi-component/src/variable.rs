@@ -181,14 +181,23 @@ impl Variable {
     /// Another type, not finite, or out of range.
     #[inline]
     pub fn check(&self, value: Value) -> Result<()> {
-        // The path of signals, small enough to be part of each setter.
+        match self.signal(value) {
+            Some(_) => Ok(()),
+            None => self.check_any(value),
+        }
+    }
+
+    /// The real in `value`, if this is a real variable of 64 bits that may be given it: the path of signals, small enough to be part of
+    /// each setter.
+    #[inline]
+    pub(crate) fn signal(&self, value: Value) -> Option<f64> {
         match (&self.kind, value) {
             (Kind::Real(quantity), Value::Real(real))
                 if real.is_finite() && (quantity.min..=quantity.max).contains(&real) =>
             {
-                Ok(())
+                Some(real)
             }
-            _ => self.check_any(value),
+            _ => None,
         }
     }
 

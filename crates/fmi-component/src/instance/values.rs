@@ -163,10 +163,8 @@ impl Instance {
     /// # Errors
     /// Unknown reference, other type, not to be set in this phase or at all, not finite, out of range.
     pub fn set(&mut self, references: &[u32], access: Access, value: impl Fn(usize) -> Value) -> Result<()> {
-        if let Some(array) = references.iter().find(|reference| self.span(**reference) > 1) {
-            return Err(self.one_value_for_an_array(*array));
-        }
-        let position = |instance: &Self, index: usize| instance.position(references[index], access);
+        let position =
+            |instance: &Self, index: usize| instance.position_of(references[index], access, |span| span == 1);
         self.set_positions(references.len(), position, value)
     }
 
@@ -193,15 +191,6 @@ impl Instance {
             ));
         }
         self.set_positions(count, |_, index| Ok(positions[index]), value)
-    }
-
-    #[cold]
-    fn one_value_for_an_array(&self, reference: u32) -> Error {
-        let elements = self.span(reference);
-        Error::call(
-            format!("value reference {reference} is an array of {elements} elements, and one value is given"),
-            "Pass as many values as the dimensions say.",
-        )
     }
 
     /// Before `count` values are stored: a model of the old ones may have been built for reading outputs in initialization mode.
@@ -271,14 +260,20 @@ impl Instance {
     /// Position of the variable behind `reference`, if it can be accessed so.
     #[inline]
     pub(super) fn position(&self, reference: u32, access: Access) -> Result<usize> {
+        self.position_of(reference, access, |span| span > 0)
+    }
+
+    /// As [`Instance::position`], of a variable with such a number of elements.
+    #[inline]
+    fn position_of(&self, reference: u32, access: Access, fits: impl Fn(usize) -> bool) -> Result<usize> {
         match self.slot(reference) {
-            Some(slot) if slot.span > 0 && slot.accesses >> access as u8 & 1 == 1 => Ok(reference as usize - 1),
-            slot => Err(self.no_access(reference, slot)),
+            Some(slot) if fits(slot.span) && slot.accesses >> access as u8 & 1 == 1 => Ok(reference as usize - 1),
+            slot => Err(self.no_access(reference, access, slot)),
         }
     }
 
     #[cold]
-    fn no_access(&self, reference: u32, slot: Option<&Slot>) -> Error {
+    fn no_access(&self, reference: u32, access: Access, slot: Option<&Slot>) -> Error {
         let what = match slot {
             None if reference == TIME_REFERENCE => {
                 "value reference 0 is the time, a real that only steps change".into()
@@ -288,6 +283,12 @@ impl Instance {
                 self.slots.len()
             ),
             Some(Slot { span: 0, .. }) => format!("value reference {reference} is inside of an array"),
+            Some(Slot { span, accesses, .. }) if *span > 1 && accesses >> access as u8 & 1 == 1 => {
+                return Error::call(
+                    format!("value reference {reference} is an array of {span} elements, and one value is given"),
+                    "Pass as many values as the dimensions say.",
+                );
+            }
             Some(_) => return of_another_type(&self.table.variables()[reference as usize - 1], reference),
         };
         Error::call(what, "Take the value references from modelDescription.xml.")

@@ -159,6 +159,24 @@ impl Entry {
         })
     }
 
+    /// As [`Entry::read`], for functions that are called now and then: compiled once for all of them.
+    ///
+    /// # Safety
+    /// As for [`Entry::change`].
+    pub unsafe fn read_rarely(self, work: &mut dyn FnMut(&mut Component) -> Result<()>) -> Status {
+        // SAFETY: passed on.
+        unsafe { self.read(|component| work(component)) }
+    }
+
+    /// As [`Entry::set`], for functions that are called now and then: compiled once for all of them.
+    ///
+    /// # Safety
+    /// As for [`Entry::change`].
+    pub unsafe fn set_rarely(self, work: &mut dyn FnMut(&mut Component) -> Result<()>) -> Status {
+        // SAFETY: passed on.
+        unsafe { self.set(|component| work(component)) }
+    }
+
     /// Enters again for a step that was left for an intermediate update.
     ///
     /// # Safety

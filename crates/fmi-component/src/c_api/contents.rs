@@ -18,7 +18,7 @@ use crate::memory;
 pub unsafe fn get_text(entry: Entry, arrays: Arrays<*mut *const c_char>) -> Status {
     // SAFETY: passed on.
     unsafe {
-        entry.read(|component| {
+        entry.read_rarely(&mut |component| {
             let (references, mut values) = component.request(arrays)?;
             component.lend(references, Access::Text)?;
             for (index, text) in component.lent.iter().enumerate() {
@@ -36,7 +36,7 @@ pub unsafe fn get_text(entry: Entry, arrays: Arrays<*mut *const c_char>) -> Stat
 pub unsafe fn get_binary(entry: Entry, sizes: *mut usize, arrays: Arrays<*mut *const u8>) -> Status {
     // SAFETY: passed on.
     unsafe {
-        entry.read(|component| {
+        entry.read_rarely(&mut |component| {
             let (references, mut values) = component.request(arrays)?;
             let mut sizes = memory::Output::new(sizes, arrays.length, "the array of sizes")?;
             component.lend(references, Access::Binary)?;
@@ -56,7 +56,7 @@ pub unsafe fn get_binary(entry: Entry, sizes: *mut usize, arrays: Arrays<*mut *c
 pub unsafe fn set_text(entry: Entry, arrays: Arrays<*const *const c_char>) -> Status {
     // SAFETY: passed on.
     unsafe {
-        entry.set(|component| {
+        entry.set_rarely(&mut |component| {
             memory::check_length(arrays.length, arrays.count, "the array of values")?;
             let references = memory::slice(arrays.references, arrays.count, "the array of value references")?;
             let pointers = memory::slice(arrays.values, arrays.count, "the array of values")?;
@@ -76,7 +76,7 @@ pub unsafe fn set_text(entry: Entry, arrays: Arrays<*const *const c_char>) -> St
 pub unsafe fn set_binary(entry: Entry, sizes: *const usize, arrays: Arrays<*const *const u8>) -> Status {
     // SAFETY: passed on.
     unsafe {
-        entry.set(|component| {
+        entry.set_rarely(&mut |component| {
             memory::check_length(arrays.length, arrays.count, "the array of values")?;
             let references = memory::slice(arrays.references, arrays.count, "the array of value references")?;
             let pointers = memory::slice(arrays.values, arrays.count, "the array of values")?;

@@ -40,7 +40,7 @@ pub unsafe fn get_single(entry: Entry, arrays: Arrays<*mut f32>) -> Status {
         Ok(value.to_f64() as f32)
     };
     // SAFETY: passed on.
-    unsafe { entry.read(|component| component.fill(arrays, read)) }
+    unsafe { entry.read_rarely(&mut |component| component.fill(arrays, read)) }
 }
 
 /// `fmi2GetInteger` and the getters of whole numbers of FMI 3.0.
@@ -49,7 +49,7 @@ pub unsafe fn get_single(entry: Entry, arrays: Arrays<*mut f32>) -> Status {
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn get_whole<T: TryFrom<i64>>(entry: Entry, arrays: Arrays<*mut T>, access: Access) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.read(|component| component.get_whole(arrays, access)) }
+    unsafe { entry.read_rarely(&mut |component| component.get_whole(arrays, access)) }
 }
 
 /// `fmi2GetBoolean` with `T = c_int`, `fmi3GetBoolean` with a byte.
@@ -62,7 +62,7 @@ pub unsafe fn get_boolean<T: From<bool>>(entry: Entry, arrays: Arrays<*mut T>) -
         Ok(T::from(value != Value::Integer(0)))
     };
     // SAFETY: passed on.
-    unsafe { entry.read(|component| component.fill(arrays, read)) }
+    unsafe { entry.read_rarely(&mut |component| component.fill(arrays, read)) }
 }
 
 /// `fmi2SetReal`, `fmi3SetFloat64`.
@@ -71,7 +71,7 @@ pub unsafe fn get_boolean<T: From<bool>>(entry: Entry, arrays: Arrays<*mut T>) -
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn set_real(entry: Entry, arrays: Arrays<*const f64>) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.set(|component| component.set(arrays, real_of(entry), |value| Some(Value::Real(value)))) }
+    unsafe { entry.set(|component| component.set_reals(arrays, real_of(entry))) }
 }
 
 /// `fmi3SetFloat32`.
@@ -80,7 +80,11 @@ pub unsafe fn set_real(entry: Entry, arrays: Arrays<*const f64>) -> Status {
 /// As for [`Entry::change`] and [`Arrays`].
 pub unsafe fn set_single(entry: Entry, arrays: Arrays<*const f32>) -> Status {
     // SAFETY: passed on.
-    unsafe { entry.set(|component| component.set(arrays, Access::Single, |value| Some(Value::Real(value.into())))) }
+    unsafe {
+        entry.set_rarely(&mut |component| {
+            component.set_any(arrays, Access::Single, |value| Some(Value::Real(value.into())))
+        })
+    }
 }
 
 /// `fmi2SetInteger` and the setters of whole numbers of FMI 3.0.
@@ -90,7 +94,7 @@ pub unsafe fn set_single(entry: Entry, arrays: Arrays<*const f32>) -> Status {
 pub unsafe fn set_whole<T: TryInto<i64> + Copy>(entry: Entry, arrays: Arrays<*const T>, access: Access) -> Status {
     let convert = |value: T| value.try_into().ok().map(Value::Integer);
     // SAFETY: passed on.
-    unsafe { entry.set(|component| component.set(arrays, access, convert)) }
+    unsafe { entry.set_rarely(&mut |component| component.set_any(arrays, access, convert)) }
 }
 
 /// `fmi2SetBoolean` with `T = c_int`, `fmi3SetBoolean` with a byte. Anything but 0 is true, as in C.
@@ -100,7 +104,7 @@ pub unsafe fn set_whole<T: TryInto<i64> + Copy>(entry: Entry, arrays: Arrays<*co
 pub unsafe fn set_boolean<T: Default + PartialEq + Copy>(entry: Entry, arrays: Arrays<*const T>) -> Status {
     let convert = |value: T| Some(Value::from(value != T::default()));
     // SAFETY: passed on.
-    unsafe { entry.set(|component| component.set(arrays, Access::Boolean, convert)) }
+    unsafe { entry.set_rarely(&mut |component| component.set_any(arrays, Access::Boolean, convert)) }
 }
 
 /// FMI 2.0 has one type of reals.
@@ -224,36 +228,55 @@ impl Component {
         Ok(())
     }
 
-    /// Sets variables from the importer's array: all, or none if one is refused.
+    /// Sets reals from the importer's array: all, or none if one is refused.
     ///
     /// # Safety
     /// As for [`Arrays`].
     ///
     /// # Errors
     /// Bad pointers, wrong lengths, unknown references, other types, values out of range, wrong phase.
-    unsafe fn set<T: Copy>(
+    unsafe fn set_reals(&mut self, arrays: Arrays<*const f64>, access: Access) -> Result<()> {
+        // SAFETY: by the caller's promise.
+        let references = unsafe { memory::slice(arrays.references, arrays.count, "the array of value references") }?;
+        // SAFETY: by the caller's promise.
+        let values = unsafe { memory::slice(arrays.values, arrays.length, "the array of values") }?;
+        match arrays.length == arrays.count {
+            true => self
+                .instance
+                .set(references, access, |index| Value::Real(values[index])),
+            false => self
+                .instance
+                .set_elements(references, access, values.len(), |index| Value::Real(values[index])),
+        }
+    }
+
+    /// Sets scalars of any other type from the importer's array: all, or none if one is refused.
+    ///
+    /// # Safety
+    /// As for [`Arrays`].
+    ///
+    /// # Errors
+    /// As [`Component::set_reals`]; a value that cannot be held.
+    unsafe fn set_any<T: Copy>(
         &mut self,
         arrays: Arrays<*const T>,
         access: Access,
         convert: impl Fn(T) -> Option<Value>,
     ) -> Result<()> {
+        memory::check_length(arrays.length, arrays.count, "the array of values")?;
         // SAFETY: by the caller's promise.
         let references = unsafe { memory::slice(arrays.references, arrays.count, "the array of value references") }?;
-        if arrays.length != arrays.count {
-            let elements = references.iter().map(|reference| self.instance.span(*reference)).sum();
-            memory::check_length(arrays.length, elements, "the array of values")?;
-        }
         // SAFETY: by the caller's promise.
         let values = unsafe { memory::slice(arrays.values, arrays.length, "the array of values") }?;
-        // Refused before any is stored; it costs nothing where all can be held.
-        if let Some(index) = values.iter().position(|value| convert(*value).is_none()) {
-            return Err(above_what_is_held(references.get(index).copied().unwrap_or_default()));
+        let held: Vec<Value> = values.iter().map_while(|value| convert(*value)).collect();
+        if let Some(refused) = references.get(held.len()) {
+            return Err(above_what_is_held(*refused));
         }
-        let convert = |index: usize| convert(values[index]).unwrap_or(Value::Integer(0));
-        match arrays.length == arrays.count {
-            true => self.instance.set(references, access, convert),
-            false => self.instance.set_elements(references, access, arrays.length, convert),
-        }
+        self.store(references, access, &held)
+    }
+
+    fn store(&mut self, references: &[u32], access: Access, values: &[Value]) -> Result<()> {
+        self.instance.set(references, access, |index| values[index])
     }
 }
 

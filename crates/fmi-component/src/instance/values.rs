@@ -179,15 +179,18 @@ impl Instance {
         count: usize,
         value: impl Fn(usize) -> Value,
     ) -> Result<()> {
-        let mut positions = Vec::with_capacity(count);
+        let mut positions = Vec::new();
         for reference in references {
             let first = self.position(*reference, access)?;
             positions.extend(first..first + self.span(*reference));
         }
         if positions.len() != count {
             return Err(Error::call(
-                format!("{count} values for variables with {} elements", positions.len()),
-                "Pass as many values as the dimensions say.",
+                format!(
+                    "the array of values has {count} elements, expected are {}",
+                    positions.len()
+                ),
+                "Pass one value for each scalar, and as many as its dimension says for each array.",
             ));
         }
         self.set_positions(count, |_, index| Ok(positions[index]), value)

@@ -17,35 +17,17 @@ pub struct DiskArrays<'a> {
 }
 
 impl DiskArrays<'_> {
-    /// Vector from the centre of the second disk of a pair to that of the first \[m\].
-    #[inline(always)]
-    pub fn difference(&self, [i, j]: [usize; 2]) -> [f64; 2] {
-        let (a, b) = (&self.positions[i], &self.positions[j]);
-        [a[0] - b[0], a[1] - b[1]]
-    }
-
     /// Relative motion of two disks; lambda counts beta from the direction of the normal.
     #[inline(always)]
     pub fn of_pair(&self, [i, j]: [usize; 2]) -> Kinematics {
-        let [dx, dy] = self.difference([i, j]);
-        let distance = (dx * dx + dy * dy).sqrt();
-        let (ra, rb) = (self.radii[i], self.radii[j]);
-        let radius_sum = ra + rb;
-        let inverse = 1.0 / distance;
-        let (nx, ny) = (dx * inverse, dy * inverse);
+        let (a, b) = (&self.positions[i], &self.positions[j]);
         let (va, vb) = (&self.velocities[i], &self.velocities[j]);
-        let (ux, uy) = (va[0] - vb[0], va[1] - vb[1]);
-        let sideways = ux * ny - uy * nx;
-        let lever = radius_sum * inverse;
-        Kinematics {
-            overlap: radius_sum - distance,
-            closing: -(ux * nx + uy * ny),
-            tangential_displacement: ra * self.positions[i][2] + rb * self.positions[j][2],
-            sliding: sideways * lever + (ra * va[2] + rb * vb[2]),
-            normal: [nx, ny],
-            turning: -sideways * inverse,
-            lever,
-        }
+        let (ra, rb) = (self.radii[i], self.radii[j]);
+        let arcs = RelativeArcs {
+            arc: ra * a[2] + rb * b[2],
+            rate: ra * va[2] + rb * vb[2],
+        };
+        Kinematics::of_pair([a[0] - b[0], a[1] - b[1]], [va[0] - vb[0], va[1] - vb[1]], ra + rb, arcs)
     }
 
     /// Relative motion of a disk and a wall.
@@ -53,14 +35,61 @@ impl DiskArrays<'_> {
     pub fn of_wall(&self, disk: usize, wall: &Wall, base: &Motion) -> Kinematics {
         let ([x, y, angle], [vx, vy, spin]) = (self.positions[disk], self.velocities[disk]);
         let radius = self.radii[disk];
-        let lift = wall.follows_base * base.displacement;
-        let vy = vy - wall.follows_base * base.velocity;
+        let arcs = RelativeArcs {
+            arc: radius * angle,
+            rate: radius * spin,
+        };
+        Kinematics::of_wall([x, y], [vx, vy], radius, wall, [base.displacement, base.velocity], arcs)
+    }
+}
+
+/// Sum of radius times angle of the bodies in contact \[m\], and its rate \[m/s\].
+#[derive(Debug, Clone, Copy)]
+pub struct RelativeArcs {
+    /// \[m\]
+    pub arc: f64,
+    /// \[m/s\]
+    pub rate: f64,
+}
+
+impl Kinematics {
+    /// Of two disks at this distance, vector and rate from the second to the first.
+    #[inline(always)]
+    pub fn of_pair([dx, dy]: [f64; 2], [ux, uy]: [f64; 2], radius_sum: f64, arcs: RelativeArcs) -> Self {
+        let distance = (dx * dx + dy * dy).sqrt();
+        let inverse = 1.0 / distance;
+        let (nx, ny) = (dx * inverse, dy * inverse);
+        let sideways = ux * ny - uy * nx;
+        let lever = radius_sum * inverse;
+        Self {
+            overlap: radius_sum - distance,
+            closing: -(ux * nx + uy * ny),
+            tangential_displacement: arcs.arc,
+            sliding: sideways * lever + arcs.rate,
+            normal: [nx, ny],
+            turning: -sideways * inverse,
+            lever,
+        }
+    }
+
+    /// Of a disk at a wall, whose base has this displacement \[m\] and velocity \[m/s\].
+    #[inline(always)]
+    pub fn of_wall(
+        [x, y]: [f64; 2],
+        [vx, vy]: [f64; 2],
+        radius: f64,
+        wall: &Wall,
+        [displacement, velocity]: [f64; 2],
+        arcs: RelativeArcs,
+    ) -> Self {
+        let lift = wall.follows_base * displacement;
+        let vy = vy - wall.follows_base * velocity;
         let ([nx, ny], [tx, ty]) = (wall.normal.into(), wall.tangent().into());
-        Kinematics {
-            overlap: radius - wall.distance([x, y], base.displacement),
+        Self {
+            overlap: radius - wall.distance([x, y], displacement),
             closing: -(nx * vx + ny * vy),
-            tangential_displacement: radius * angle + tx * x + ty * (y - lift),
-            sliding: tx * vx + ty * vy + radius * spin,
+            tangential_displacement: arcs.arc + tx * x + ty * (y - lift),
+            sliding: tx * vx + ty * vy + arcs.rate,
             normal: [nx, ny],
             turning: 0.0,
             lever: 1.0,

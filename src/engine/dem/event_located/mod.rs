@@ -9,16 +9,22 @@
 //! impulses. Momentum is conserved to rounding: a contact gives both its bodies the same impulse.
 
 mod contact_events;
+mod contact_groups;
 mod contact_step;
-mod extrapolation;
+mod cubic;
+mod disk_records;
 mod frame;
 mod impulse;
 mod kinematics;
+mod lane_contacts;
+mod lane_geometry;
 mod laws;
 mod neighbour_list;
 mod polynomial;
+mod single_contact;
 mod state;
 mod step;
+mod step_context;
 mod tuning;
 
 use crate::contact::LinearDashpot;
@@ -29,6 +35,7 @@ use crate::geometry::Disk;
 
 use super::candidates::{self, Candidate};
 use super::fixed_grid::{GridState, Stepper};
+use super::lanes::largest;
 use super::setup::{Breakdown, SoftDiskSetup, SoftDisks};
 
 pub use state::{Contact, Disks, Kinematics, LocatedPhase};
@@ -36,7 +43,8 @@ pub use state::{Contact, Disks, Kinematics, LocatedPhase};
 use kinematics::DiskArrays;
 use laws::Laws;
 use neighbour_list::{EndOfStep, NeighbourList};
-use step::{StepContext, StepScratch};
+use step::StepScratch;
+use step_context::{StepContext, velocity_at_nodes};
 
 /// Steps of fourth order with located contact events.
 #[derive(Debug, Clone)]
@@ -67,11 +75,12 @@ impl Stepper for EventStepper {
             wall_impulses: vec![[0.0; 2]; setup.walls.len()],
             ..Disks::default()
         };
+        let inverse_masses: Vec<_> = inverse_masses.collect();
         let stepper = Self {
             laws: Laws::new(&setup.laws),
-            inverse_masses: inverse_masses.collect(),
+            scratch: StepScratch::new(&inverse_masses),
+            inverse_masses,
             constants: SoftDisks::new(setup, disks),
-            scratch: StepScratch::new(disks.len()),
             neighbours: NeighbourList::new(disks.len()),
         };
         (stepper, state)
@@ -110,11 +119,11 @@ impl Stepper for EventStepper {
         };
         self.neighbours.build_if_due(state, &self.constants, duration, end)?;
         let mut scratch = std::mem::take(&mut self.scratch);
+        let mut pairs = std::mem::take(&mut state.disks.pairs);
+        let mut wall_contacts = std::mem::take(&mut state.disks.wall_contacts);
         let context = self.context(&state.disks, [state.base, base], duration);
-        let (pairs, wall_contacts) = (&state.disks.pairs, &state.disks.wall_contacts);
-        scratch.predict(&context, pairs, wall_contacts);
-        scratch.refine::<false>(&context, pairs, wall_contacts);
-        scratch.refine::<true>(&context, pairs, wall_contacts);
+        scratch.take(&context, &mut pairs, &mut wall_contacts);
+        (state.disks.pairs, state.disks.wall_contacts) = (pairs, wall_contacts);
         self.scratch = scratch;
         self.commit(state, base, time)
     }
@@ -211,8 +220,8 @@ impl EventStepper {
     fn commit<D>(&mut self, state: &mut GridState<D, Disks>, base: Motion, time: f64) -> Result<(), Breakdown> {
         let (disks, scratch) = (&mut state.disks, &mut self.scratch);
         let sums = scratch.sums;
-        self.constants.check_overlap(sums.deepest, time)?;
-        scratch.commit(&mut disks.pairs, &mut disks.wall_contacts);
+        self.constants
+            .check_overlap(largest(sums.lanes.deepest).max(sums.deepest), time)?;
         std::mem::swap(&mut disks.positions, &mut scratch.positions);
         std::mem::swap(&mut disks.velocities, &mut scratch.velocities);
         std::mem::swap(&mut disks.remainders, &mut scratch.remainders);
@@ -222,9 +231,9 @@ impl EventStepper {
         }
         disks.changes += u64::from(sums.changes);
         state.base = base;
-        state.energy_input += sums.work;
-        state.energy_lost += sums.lost;
-        state.contacts = sums.contacts;
+        state.energy_input += sums.lanes.work.reduce_add() + sums.work;
+        state.energy_lost += sums.lanes.lost.reduce_add() + sums.lost;
+        state.contacts = sums.lanes.contacts + sums.contacts;
         Ok(())
     }
 
@@ -263,6 +272,7 @@ impl EventStepper {
             gravity: self.constants.setup.gravity,
             start: self.arrays(disks),
             base,
+            base_velocity_at_nodes: velocity_at_nodes(base, step),
             remainders: &disks.remainders,
             step,
         }

@@ -97,6 +97,14 @@ impl Contact {
         [self.first as usize, self.second as usize]
     }
 
+    /// Makes the normal, which has turned by `turn` \[rad\], the remembered direction; `radius_sum` \[m\] is the lever of that angle in
+    /// lambda.
+    pub fn follow(&mut self, turn: f64, radius_sum: f64) {
+        self.direction = self.kinematics.normal;
+        self.reference += radius_sum * turn;
+        self.kinematics.tangential_displacement += radius_sum * turn;
+    }
+
     /// Whether all numbers are finite and directions are no longer than one.
     pub fn is_sane(&self) -> bool {
         let Kinematics {

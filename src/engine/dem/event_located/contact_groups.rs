@@ -93,6 +93,7 @@ impl<G: LaneGeometry + SingleContact> ContactGroups<G> {
         groups
     }
 
+    #[inline(never)]
     /// Sorts the contacts into groups, and adds the impulses of forces that continue from the start along their tangents.
     pub fn predict(&mut self, contacts: &[Contact], context: &StepContext<'_>, to: &mut Receivers<'_>) {
         self.others.clear();
@@ -116,24 +117,30 @@ impl<G: LaneGeometry + SingleContact> ContactGroups<G> {
 
     /// Integrates all contacts along the motion found so far.
     pub fn pass(&mut self, contacts: &[Contact], pass: Pass<'_>, to: &mut Receivers<'_>) {
-        let Pass { context, disks } = pass;
         self.changing.clear();
-        for (index, lanes) in (0..).zip(&mut self.sticking) {
-            let changes = lanes.pass::<false>(context, disks, to);
-            note(&mut self.changing, changes, index, false);
-        }
-        for (index, lanes) in (0..).zip(&mut self.slipping) {
-            let changes = lanes.pass::<true>(context, disks, to);
-            note(&mut self.changing, changes, index, true);
-        }
+        pass_lanes::<G, false>(&mut self.sticking, pass, to, &mut self.changing);
+        pass_lanes::<G, true>(&mut self.slipping, pass, to, &mut self.changing);
+        self.pass_changing(contacts, pass, to);
+        self.pass_others(contacts, pass, to);
+    }
+
+    fn pass_changing(&mut self, contacts: &[Contact], Pass { context, disks }: Pass<'_>, to: &mut Receivers<'_>) {
         for changing in &self.changing {
-            let group = if changing.slips { &mut self.slipping } else { &mut self.sticking };
+            let group = if changing.slips {
+                &mut self.slipping
+            } else {
+                &mut self.sticking
+            };
             let (lanes, k) = (&mut group[changing.lanes as usize], changing.lane as usize);
             let contact = &contacts[lanes.places[k] as usize];
             let integrated = G::integrate(context, disks, contact, lanes.own(k));
             G::add_single(contact, &integrated.given, to);
             lanes.set_own(k, integrated.given.own);
         }
+    }
+
+    #[inline(never)]
+    fn pass_others(&mut self, contacts: &[Contact], Pass { context, disks }: Pass<'_>, to: &mut Receivers<'_>) {
         for other in &mut self.others {
             let contact = &contacts[other.place as usize];
             if other.is_open && !G::may_touch(context, disks, contact.bodies()) {
@@ -153,30 +160,73 @@ impl<G: LaneGeometry + SingleContact> ContactGroups<G> {
         to: &mut Receivers<'_>,
         sums: &mut StepSums,
     ) {
-        let Pass { context, disks } = pass;
         self.changing.clear();
-        for (index, lanes) in (0..).zip(&self.sticking) {
-            let changes = lanes.last_pass::<false>(context, disks, to, contacts, &mut sums.lanes);
-            note(&mut self.changing, changes, index, false);
-        }
-        for (index, lanes) in (0..).zip(&self.slipping) {
-            let changes = lanes.last_pass::<true>(context, disks, to, contacts, &mut sums.lanes);
-            note(&mut self.changing, changes, index, true);
-        }
+        last_pass_of_lanes::<G, false>(&self.sticking, contacts, pass, to, &mut sums.lanes, &mut self.changing);
+        last_pass_of_lanes::<G, true>(&self.slipping, contacts, pass, to, &mut sums.lanes, &mut self.changing);
         for changing in &self.changing {
-            let group = if changing.slips { &self.slipping } else { &self.sticking };
+            let group = if changing.slips {
+                &self.slipping
+            } else {
+                &self.sticking
+            };
             let (lanes, k) = (&group[changing.lanes as usize], changing.lane as usize);
-            finish::<G>(&mut contacts[lanes.places[k] as usize], lanes.own(k), pass, to, sums);
+            finish::<G>(
+                &mut contacts[lanes.places[k] as usize],
+                lanes.own(k),
+                pass,
+                to,
+                sums,
+            );
         }
+        self.last_pass_of_others(contacts, pass, to, sums);
+    }
+
+    #[inline(never)]
+    fn last_pass_of_others(
+        &self,
+        contacts: &mut [Contact],
+        pass: Pass<'_>,
+        to: &mut Receivers<'_>,
+        sums: &mut StepSums,
+    ) {
         for other in &self.others {
             let contact = &mut contacts[other.place as usize];
-            if !other.is_open || G::may_touch(context, disks, contact.bodies()) {
+            if !other.is_open || G::may_touch(pass.context, pass.disks, contact.bodies()) {
                 finish::<G>(contact, other.own, pass, to, sums);
             }
         }
     }
 }
 
+#[inline(never)]
+fn pass_lanes<G: LaneGeometry, const SLIPS: bool>(
+    group: &mut [ContactLanes<G>],
+    Pass { context, disks }: Pass<'_>,
+    to: &mut Receivers<'_>,
+    changing: &mut Vec<Changing>,
+) {
+    for (index, lanes) in (0..).zip(group) {
+        let changes = lanes.pass::<SLIPS>(context, disks, to);
+        note(changing, changes, index, SLIPS);
+    }
+}
+
+#[inline(never)]
+fn last_pass_of_lanes<G: LaneGeometry, const SLIPS: bool>(
+    group: &[ContactLanes<G>],
+    contacts: &mut [Contact],
+    Pass { context, disks }: Pass<'_>,
+    to: &mut Receivers<'_>,
+    sums: &mut LaneSums,
+    changing: &mut Vec<Changing>,
+) {
+    for (index, lanes) in (0..).zip(group) {
+        let changes = lanes.last_pass::<SLIPS>(context, disks, to, contacts, sums);
+        note(changing, changes, index, SLIPS);
+    }
+}
+
+#[inline(never)]
 fn predict<G: LaneGeometry, const SLIPS: bool>(
     group: &mut Vec<ContactLanes<G>>,
     places: &[u32],

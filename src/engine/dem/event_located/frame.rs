@@ -23,12 +23,6 @@ impl HermiteCubic {
         Self([-6.0 * x * y, y * (1.0 - 3.0 * x), 6.0 * x * y, x * (3.0 * x - 2.0)])
     }
 
-    /// Of the second derivative.
-    #[inline]
-    pub const fn bend(x: f64) -> Self {
-        Self([12.0 * x - 6.0, 6.0 * x - 4.0, 6.0 - 12.0 * x, 6.0 * x - 2.0])
-    }
-
     /// The cubic with these values and slopes.
     #[inline(always)]
     pub fn of(&self, value: f64, slope: f64, end_value: f64, end_slope: f64) -> f64 {

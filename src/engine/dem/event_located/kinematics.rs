@@ -27,7 +27,12 @@ impl DiskArrays<'_> {
             arc: ra * a[2] + rb * b[2],
             rate: ra * va[2] + rb * vb[2],
         };
-        Kinematics::of_pair([a[0] - b[0], a[1] - b[1]], [va[0] - vb[0], va[1] - vb[1]], ra + rb, arcs)
+        Kinematics::of_pair(
+            [a[0] - b[0], a[1] - b[1]],
+            [va[0] - vb[0], va[1] - vb[1]],
+            ra + rb,
+            arcs,
+        )
     }
 
     /// Relative motion of a disk and a wall.

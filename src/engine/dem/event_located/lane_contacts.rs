@@ -289,13 +289,7 @@ impl<G: LaneGeometry> ContactLanes<G> {
     /// Neither limit of friction is passed in the step: the control points of the cubic of the stretch stay within those of the
     /// cubic of the limit, of which both are convex combinations.
     #[inline(always)]
-    fn keeps_sticking(
-        &self,
-        laws: StepLaws,
-        end: &LaneMotion,
-        stretch_end: [F64x2; 2],
-        bends: [F64x2; 2],
-    ) -> F64x2 {
+    fn keeps_sticking(&self, laws: StepLaws, end: &LaneMotion, stretch_end: [F64x2; 2], bends: [F64x2; 2]) -> F64x2 {
         const THIRD: f64 = 1.0 / 3.0;
         let control = |[value, slope]: [F64x2; 2], [end_value, end_slope]: [F64x2; 2]| {
             [value, value + slope * THIRD, end_value - end_slope * THIRD, end_value]

@@ -132,10 +132,7 @@ impl LaneGeometry for PairLanes {
         let turn = turn_between(self.direction, [nx, ny]);
         LaneMotion {
             overlap: [self.radius_sum - distance, approach * -context.step],
-            displacement: [
-                arc - self.radius_sum * turn,
-                (sideways * lever + rate) * context.step,
-            ],
+            displacement: [arc - self.radius_sum * turn, (sideways * lever + rate) * context.step],
             normal: [nx, ny],
             turn,
             turning: sideways * inverse * -context.step,

@@ -21,6 +21,7 @@ mod lane_geometry;
 mod laws;
 mod neighbour_list;
 mod polynomial;
+mod segment;
 mod single_contact;
 mod state;
 mod step;

@@ -28,12 +28,7 @@ pub trait SingleContact {
     /// step could have brought them.
     fn may_touch(context: &StepContext<'_>, disks: &[DiskRecord], bodies: [usize; 2]) -> bool;
     /// Integrates a contact. What it gave in the last pass is contained in the motion.
-    fn integrate(
-        context: &StepContext<'_>,
-        disks: &[DiskRecord],
-        contact: &Contact,
-        own: OwnImpulse,
-    ) -> Integrated;
+    fn integrate(context: &StepContext<'_>, disks: &[DiskRecord], contact: &Contact, own: OwnImpulse) -> Integrated;
     /// Adds its impulse to the bodies.
     fn add_single(contact: &Contact, given: &ContactImpulse, to: &mut Receivers<'_>);
 }
@@ -48,12 +43,7 @@ impl SingleContact for PairLanes {
         beyond < 0.0 || beyond < context.step * (apart * (a[1] - b[1])).reduce_add()
     }
 
-    fn integrate(
-        context: &StepContext<'_>,
-        disks: &[DiskRecord],
-        contact: &Contact,
-        own: OwnImpulse,
-    ) -> Integrated {
+    fn integrate(context: &StepContext<'_>, disks: &[DiskRecord], contact: &Contact, own: OwnImpulse) -> Integrated {
         let pair = contact.bodies();
         let radius_sum = context.start.radii[pair[0]] + context.start.radii[pair[1]];
         let mut start = *contact;
@@ -95,12 +85,7 @@ impl SingleContact for WallLanes {
         end.overlap > 0.0 || end.overlap > context.step * end.closing
     }
 
-    fn integrate(
-        context: &StepContext<'_>,
-        disks: &[DiskRecord],
-        contact: &Contact,
-        own: OwnImpulse,
-    ) -> Integrated {
+    fn integrate(context: &StepContext<'_>, disks: &[DiskRecord], contact: &Contact, own: OwnImpulse) -> Integrated {
         let [disk, wall] = contact.bodies();
         let end = end_at_wall(context, disks, [disk, wall]);
         let wall = &context.walls[wall];
@@ -136,13 +121,22 @@ impl SingleContact for WallLanes {
 fn end_at_wall(context: &StepContext<'_>, disks: &[DiskRecord], [disk, wall]: [usize; 2]) -> Kinematics {
     let base = &context.base[1];
     let radius = context.start.radii[disk];
-    of_wall(&disks[disk], radius, &context.walls[wall], [base.displacement, base.velocity])
+    of_wall(
+        &disks[disk],
+        radius,
+        &context.walls[wall],
+        [base.displacement, base.velocity],
+    )
 }
 
 #[inline(always)]
 fn vectors(given: &ContactImpulse) -> [F64x2; 3] {
     let [impulse, moment] = given.own.tangential;
-    [F64x2::new(given.moment), F64x2::new(given.impulse), F64x2::new([moment, impulse])]
+    [
+        F64x2::new(given.moment),
+        F64x2::new(given.impulse),
+        F64x2::new([moment, impulse]),
+    ]
 }
 
 /// `start` is the contact at the start, with its motion.

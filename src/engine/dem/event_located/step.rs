@@ -81,6 +81,7 @@ impl StepScratch {
         self.correct(context);
     }
 
+    #[inline(never)]
     fn begin(&mut self, context: &StepContext<'_>) {
         self.sums = StepSums::default();
         self.clear(context);
@@ -102,16 +103,19 @@ impl StepScratch {
         self.wall_impulses.resize(context.walls.len(), [0.0; 2]);
     }
 
+    #[inline(never)]
     /// Disks at the end of the step under the impulses found so far.
     fn correct_records(&mut self) {
         self.disks.clear();
         let impulses = self.impulses.iter().zip(&self.inverse_masses);
-        self.disks.extend(self.free.iter().zip(impulses).map(|(free, (sums, inverse))| {
-            let [moment, impulse, turning] = [0, 1, 2].map(|part: usize| sums[part] * inverse[part]);
-            [free[0] + moment, free[1] + impulse, free[2] + turning]
-        }));
+        self.disks
+            .extend(self.free.iter().zip(impulses).map(|(free, (sums, inverse))| {
+                let [moment, impulse, turning] = [0, 1, 2].map(|part: usize| sums[part] * inverse[part]);
+                [free[0] + moment, free[1] + impulse, free[2] + turning]
+            }));
     }
 
+    #[inline(never)]
     /// Positions and velocities at the end from impulses and moments. The sums are compensated: equal steps in a row would
     /// else all be rounded the same way, and short steps drift by half a unit in the last place each.
     fn correct(&mut self, context: &StepContext<'_>) {
@@ -125,8 +129,7 @@ impl StepScratch {
         );
         let disks = start.positions.iter().zip(start.velocities).zip(context.remainders);
         let impulses = self.impulses.iter().zip(context.inverse_masses.iter().zip(start.radii));
-        for (((position, velocity), [short_position, short_velocity]), (sums, (inverse, radius))) in
-            disks.zip(impulses)
+        for (((position, velocity), [short_position, short_velocity]), (sums, (inverse, radius))) in disks.zip(impulses)
         {
             let [[moment_x, moment_y], [x, y], [moment, turning]] = sums.map(F64x2::to_array);
             let moment = [moment_x, moment_y, radius * moment];

@@ -93,8 +93,8 @@ impl<G: LaneGeometry + SingleContact> ContactGroups<G> {
         groups
     }
 
-    #[inline(never)]
     /// Sorts the contacts into groups, and adds the impulses of forces that continue from the start along their tangents.
+    #[inline(never)]
     pub fn predict(&mut self, contacts: &[Contact], context: &StepContext<'_>, to: &mut Receivers<'_>) {
         self.others.clear();
         let [sticking, slipping] = &mut self.places;
@@ -153,30 +153,14 @@ impl<G: LaneGeometry + SingleContact> ContactGroups<G> {
     }
 
     /// The same, with energies; the contacts are then those at the end of the step.
-    pub fn last_pass(
-        &mut self,
-        contacts: &mut [Contact],
-        pass: Pass<'_>,
-        to: &mut Receivers<'_>,
-        sums: &mut StepSums,
-    ) {
+    pub fn last_pass(&mut self, contacts: &mut [Contact], pass: Pass<'_>, to: &mut Receivers<'_>, sums: &mut StepSums) {
         self.changing.clear();
         last_pass_of_lanes::<G, false>(&self.sticking, contacts, pass, to, &mut sums.lanes, &mut self.changing);
         last_pass_of_lanes::<G, true>(&self.slipping, contacts, pass, to, &mut sums.lanes, &mut self.changing);
         for changing in &self.changing {
-            let group = if changing.slips {
-                &self.slipping
-            } else {
-                &self.sticking
-            };
+            let group = if changing.slips { &self.slipping } else { &self.sticking };
             let (lanes, k) = (&group[changing.lanes as usize], changing.lane as usize);
-            finish::<G>(
-                &mut contacts[lanes.places[k] as usize],
-                lanes.own(k),
-                pass,
-                to,
-                sums,
-            );
+            finish::<G>(&mut contacts[lanes.places[k] as usize], lanes.own(k), pass, to, sums);
         }
         self.last_pass_of_others(contacts, pass, to, sums);
     }

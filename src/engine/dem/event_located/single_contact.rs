@@ -50,6 +50,8 @@ impl SingleContact for PairLanes {
         if contact.phase == LocatedPhase::Open {
             start.kinematics = context.start.of_pair(pair);
             start.direction = start.kinematics.normal;
+            // Not what an earlier contact left, which is there or not with the age of the list.
+            start.reference = start.kinematics.tangential_displacement;
         }
         let mut end = of_pair(disks, pair, radius_sum);
         let turn = angle_between(start.direction, end.normal);
@@ -93,6 +95,7 @@ impl SingleContact for WallLanes {
         start.direction = wall.normal.into();
         if contact.phase == LocatedPhase::Open {
             start.kinematics = context.start.of_wall(disk, wall, &context.base[0]);
+            start.reference = start.kinematics.tangential_displacement;
         }
         let frame = WallFrame {
             normal: wall.normal.into(),

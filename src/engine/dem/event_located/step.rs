@@ -103,8 +103,8 @@ impl StepScratch {
         self.wall_impulses.resize(context.walls.len(), [0.0; 2]);
     }
 
-    #[inline(never)]
     /// Disks at the end of the step under the impulses found so far.
+    #[inline(never)]
     fn correct_records(&mut self) {
         self.disks.clear();
         let impulses = self.impulses.iter().zip(&self.inverse_masses);
@@ -115,9 +115,9 @@ impl StepScratch {
             }));
     }
 
-    #[inline(never)]
     /// Positions and velocities at the end from impulses and moments. The sums are compensated: equal steps in a row would
     /// else all be rounded the same way, and short steps drift by half a unit in the last place each.
+    #[inline(never)]
     fn correct(&mut self, context: &StepContext<'_>) {
         self.positions.clear();
         self.velocities.clear();

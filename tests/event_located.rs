@@ -301,6 +301,39 @@ fn a_pile_of_three_converges_to_itself_and_to_verlet() {
     assert!(verlet[1] < 0.3 * verlet[0] && verlet[1] < 1e-5, "{verlet:?}");
 }
 
+/// Contacts go through the engine two by two. What a disk does must not depend on which contact its own are paired with, nor on
+/// when other disks make the neighbour list be built: the same bits with other piles in front of it and behind it in the list.
+#[test]
+fn a_pile_has_the_same_bits_among_other_piles() {
+    let pile_at = |x: f64| {
+        [
+            disk(x - 0.021, 0.0201, 0.02),
+            disk(x + 0.0205, 0.0203, 0.02),
+            disk(x + 0.001, 0.054_5, 0.02),
+        ]
+    };
+    let rates = [[0.1, -0.1, 3.0], [0.0, -0.1, 0.0], [0.0, -0.2, 1.0]];
+    let case = |disks: Vec<Disk>, rates: Vec<[f64; 3]>| Case {
+        disks,
+        rates,
+        width: 4.0,
+        gamma: 2.0,
+    };
+    let alone = case(pile_at(0.5).to_vec(), rates.to_vec()).located(5e-5, 0.5);
+    let others = [
+        vec![disk(-1.0, 0.0202, 0.02)],
+        pile_at(0.5).to_vec(),
+        pile_at(1.5).to_vec(),
+    ];
+    let their_rates = [
+        vec![[0.2, -0.1, 9.0]],
+        rates.to_vec(),
+        rates.map(|[x, y, spin]| [x, 3.0 * y, -spin]).to_vec(),
+    ];
+    let among = case(others.concat(), their_rates.concat()).located(5e-5, 0.5);
+    assert_eq!(alone[..], among[1..4]);
+}
+
 /// Sixty disks that settled on a shaken base, for a period of the base, started from where a run by Verlet had them.
 #[test]
 fn a_packing_converges_to_itself_and_to_verlet() {

@@ -212,8 +212,9 @@ impl<G: LaneGeometry> ContactLanes<G> {
                 contact.kinematics = end.kinematics(k, context.step);
             }
         }
-        if end.turn.abs().simd_gt(F64x2::splat(FOLLOWING_ANGLE)).any() {
-            for k in (0..2).filter(|k| holds & (1 << k) != 0) {
+        let follows = end.turn.abs().simd_gt(F64x2::splat(FOLLOWING_ANGLE)).to_bitmask() & holds;
+        if follows != 0 {
+            for k in (0..2).filter(|k| follows & (1 << k) != 0) {
                 let contact = &mut contacts[self.places[k] as usize];
                 let [first, second] = contact.bodies().map(|disk| context.start.radii[disk]);
                 contact.follow(lane(end.turn, k), first + second);

@@ -5,8 +5,9 @@
 //! contact.
 //!
 //! A step predicts positions and velocities at its end. Then, twice, it takes the relative motion of each contact as the
-//! cubic between its ends, integrates its force along it (`contact_step`, `contact_events`), and corrects the ends by the
-//! impulses. Momentum is conserved to rounding: a contact gives both its bodies the same impulse.
+//! cubic between its ends, integrates its force along it, and corrects the ends by the impulses. Contacts that keep their phase go
+//! two by two in lanes (`contact_groups`, `lane_contacts`), the others one by one (`single_contact`, `contact_events`). Momentum is
+//! conserved to rounding: a contact gives both its bodies the same impulse. Each contact has the bits that it would have alone.
 
 mod contact_events;
 mod contact_groups;

@@ -165,16 +165,15 @@ impl LaneGeometry for PairLanes {
 
     #[inline(always)]
     fn add(&self, given: &LaneImpulse, to: &mut Receivers<'_>) {
-        let vectors = vectors(given);
-        for k in 0..2 {
+        for (k, [moment, impulse, turning]) in vectors(given).into_iter().enumerate() {
             let sums = &mut to.disks[self.first[k]];
-            sums[0] += vectors[0][k];
-            sums[1] += vectors[1][k];
-            sums[2] += vectors[2][k];
+            sums[0] += moment;
+            sums[1] += impulse;
+            sums[2] += turning;
             let sums = &mut to.disks[self.second[k]];
-            sums[0] -= vectors[0][k];
-            sums[1] -= vectors[1][k];
-            sums[2] += vectors[2][k];
+            sums[0] -= moment;
+            sums[1] -= impulse;
+            sums[2] += turning;
         }
     }
 }
@@ -249,12 +248,11 @@ impl LaneGeometry for WallLanes {
 
     #[inline(always)]
     fn add(&self, given: &LaneImpulse, to: &mut Receivers<'_>) {
-        let vectors = vectors(given);
-        for k in 0..2 {
+        for (k, [moment, impulse, turning]) in vectors(given).into_iter().enumerate() {
             let sums = &mut to.disks[self.disk[k]];
-            sums[0] += vectors[0][k];
-            sums[1] += vectors[1][k];
-            sums[2] += vectors[2][k];
+            sums[0] += moment;
+            sums[1] += impulse;
+            sums[2] += turning;
             let wall = &mut to.walls[self.wall[k]];
             wall[0] += lane(given.x[0], k);
             wall[1] += lane(given.y[0], k);
@@ -275,12 +273,11 @@ pub fn impulse([x, y]: [[F64x2; 2]; 2], tangential: [F64x2; 2], step: f64, holds
 
 /// As in [`ImpulseSums`], for each of two contacts.
 #[inline(always)]
-fn vectors(given: &LaneImpulse) -> [[F64x2; 2]; 3] {
-    [
-        transpose([given.x[1], given.y[1]]),
-        transpose([given.x[0], given.y[0]]),
-        transpose([given.tangential[1], given.tangential[0]]),
-    ]
+fn vectors(given: &LaneImpulse) -> [ImpulseSums; 2] {
+    let [moment, other_moment] = transpose([given.x[1], given.y[1]]);
+    let [impulse, other_impulse] = transpose([given.x[0], given.y[0]]);
+    let [turning, other_turning] = transpose([given.tangential[1], given.tangential[0]]);
+    [[moment, impulse, turning], [other_moment, other_impulse, other_turning]]
 }
 
 /// Derivative of a direction that turns by `angle` a unit of time.

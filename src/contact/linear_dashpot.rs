@@ -1,8 +1,6 @@
 //! Normal force of the linear dashpot with cut-off at zero (P 4.2).
 
-use wide::f64x2;
-
-use super::NormalForce;
+use super::{NormalForce, Numbers};
 use crate::elementary::{acos, acosh, exp};
 use crate::geometry::bracketed_root::falling_root;
 
@@ -97,12 +95,12 @@ impl NormalForce for LinearDashpot {
     }
 
     #[inline(always)]
-    fn elastic([stiffness, _]: [f64x2; 2], overlap: f64x2) -> f64x2 {
+    fn elastic<T: Numbers>([stiffness, _]: [T; 2], overlap: T) -> T {
         stiffness * overlap
     }
 
     #[inline(always)]
-    fn viscous([_, damping]: [f64x2; 2], _overlap: f64x2, normal_velocity: f64x2) -> f64x2 {
+    fn viscous<T: Numbers>([_, damping]: [T; 2], _overlap: T, normal_velocity: T) -> T {
         damping * normal_velocity
     }
 

@@ -17,8 +17,12 @@ pub trait Candidate: Copy {
 /// Equal disks with gaps below 0.8 radii have no more than three pairs a disk, since lines between neighbours cannot cross; with
 /// two walls and a base a disk has three walls. Disks of very different radii, or more walls, may have more: then lists grow.
 pub fn make_room<T>(list: &mut Vec<T>, disks: usize) {
-    let room = 3 * disks + 8;
-    list.reserve(room.saturating_sub(list.len()));
+    list.reserve(room_for(disks).saturating_sub(list.len()));
+}
+
+/// The same as a number of candidates.
+pub fn room_for(disks: usize) -> usize {
+    3 * disks + 8
 }
 
 /// Replaces `list` by the candidates of `fresh`, which are sorted; those that `list` remembers stay as they are.

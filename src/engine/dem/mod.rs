@@ -21,6 +21,7 @@ pub mod verlet;
 
 pub use crate::contact::ContactLaws;
 pub use fixed_grid::{FixedGrid, GridState, Stepper};
+pub use lanes::{lanes, limit_lanes};
 pub use observables::{SoftDiskEnergies, SoftDiskObservables};
 pub use sampler::{Sampler, Unsampled};
 pub use setup::{Breakdown, SoftDiskSetup, SoftDisks};

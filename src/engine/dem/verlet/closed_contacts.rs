@@ -19,9 +19,11 @@ pub struct Closed<'a, N> {
 impl<N: NormalForce> Closed<'_, N> {
     /// All of them, disks with disks first.
     pub fn all(&self) -> Vec<ContactNow> {
-        let pairs = self.disks.pairs.iter().filter_map(|pair| self.of_pair(pair));
+        let pairs = self.disks.pairs.iter().filter_map(|pair| self.of_pair(&pair));
         let walls = self.disks.wall_contacts.iter();
-        pairs.chain(walls.filter_map(|contact| self.of_wall(contact))).collect()
+        pairs
+            .chain(walls.filter_map(|contact| self.of_wall(&contact)))
+            .collect()
     }
 
     fn of_pair(&self, pair: &Pair) -> Option<ContactNow> {

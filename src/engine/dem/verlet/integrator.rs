@@ -5,6 +5,11 @@
 //! impulses of the walls are further degrees of freedom of unit mass, and so obey the same recursion as the momenta that
 //! they balance.
 
+use fearless_simd::Simd;
+
+use crate::contact::Numbers;
+use crate::engine::dem::lanes::{LaneWork, Lanes, in_lanes};
+
 /// A rule that advances degrees of freedom by one step.
 ///
 /// It is a type parameter of the engine, though the scenes use velocity Verlet alone, because P used Gear's: who repeats
@@ -22,11 +27,22 @@ pub trait Integrator: std::fmt::Debug + Clone + Copy + Default + Send + 'static 
     /// Corrects what was predicted by the force evaluated there, `acceleration = force * inverse_mass`.
     fn correct(coordinates: Coordinates<'_>, force: &[f64], inverse_mass: &[f64], step: f64);
 
-    /// Corrects and then predicts the next step, with the same bits as one after the other.
-    fn correct_and_predict(mut coordinates: Coordinates<'_>, force: &[f64], inverse_mass: &[f64], step: f64) {
-        Self::correct(coordinates.reborrow(), force, inverse_mass, step);
+    /// Corrects and then predicts the next step, with the same bits as one after the other, and puts the weights in the place of
+    /// the forces for the next evaluation.
+    fn correct_and_predict(mut coordinates: Coordinates<'_>, force: &mut [f64], constants: Constants<'_>, step: f64) {
+        Self::correct(coordinates.reborrow(), force, constants.inverse_mass, step);
         Self::predict(coordinates, step);
+        force.copy_from_slice(constants.weight);
     }
+}
+
+/// What stays constant of all degrees of freedom.
+#[derive(Clone, Copy)]
+pub struct Constants<'a> {
+    /// Weights \[N\].
+    pub weight: &'a [f64],
+    /// 1/m \[1/kg\].
+    pub inverse_mass: &'a [f64],
 }
 
 /// Flat view of all degrees of freedom: positions and angles, their rates, their second derivatives, and more.
@@ -63,83 +79,176 @@ impl Integrator for VelocityVerlet {
     const HIGHER_DERIVATIVES: usize = 0;
     const NAME: &'static str = "velocity Verlet";
 
-    #[inline]
     fn predict(coordinates: Coordinates<'_>, step: f64) {
-        drift(
-            coordinates.position,
-            coordinates.velocity,
-            coordinates.acceleration,
-            step,
-        );
-    }
-
-    #[inline]
-    fn correct(coordinates: Coordinates<'_>, force: &[f64], inverse_mass: &[f64], step: f64) {
-        kick(
-            coordinates.velocity,
-            coordinates.acceleration,
-            force,
-            inverse_mass,
-            step,
-        );
-    }
-
-    #[inline]
-    fn correct_and_predict(coordinates: Coordinates<'_>, force: &[f64], inverse_mass: &[f64], step: f64) {
         let Coordinates {
             position,
             velocity,
             acceleration,
             ..
         } = coordinates;
-        kick_and_drift(position, velocity, acceleration, force, inverse_mass, step);
+        in_lanes(Drift {
+            position,
+            velocity,
+            acceleration,
+            step,
+        });
+    }
+
+    fn correct(coordinates: Coordinates<'_>, force: &[f64], inverse_mass: &[f64], step: f64) {
+        let Coordinates {
+            velocity, acceleration, ..
+        } = coordinates;
+        in_lanes(Kick {
+            velocity,
+            acceleration,
+            force,
+            inverse_mass,
+            step,
+        });
+    }
+
+    fn correct_and_predict(coordinates: Coordinates<'_>, force: &mut [f64], constants: Constants<'_>, step: f64) {
+        let Coordinates {
+            position,
+            velocity,
+            acceleration,
+            ..
+        } = coordinates;
+        in_lanes(KickAndDrift {
+            position,
+            velocity,
+            acceleration,
+            force,
+            constants,
+            step,
+        });
     }
 }
 
-/// `x += h v + h^2 a / 2`, `v += h a`. Never inlined: the compiler vectorises it only where it knows from the arguments
-/// that the arrays do not overlap.
-#[inline(never)]
-fn drift(position: &mut [f64], velocity: &mut [f64], acceleration: &[f64], step: f64) {
-    let half = 0.5 * step;
-    for ((position, velocity), acceleration) in position.iter_mut().zip(velocity).zip(acceleration) {
-        *position += step * (*velocity + half * acceleration);
-        *velocity += step * acceleration;
-    }
-}
-
-/// `a' = F / m`, `v += h (a' - a) / 2`, likewise.
-#[inline(never)]
-fn kick(velocity: &mut [f64], acceleration: &mut [f64], force: &[f64], inverse_mass: &[f64], step: f64) {
-    let half = 0.5 * step;
-    let forces = force.iter().zip(inverse_mass);
-    for ((velocity, acceleration), (force, inverse_mass)) in velocity.iter_mut().zip(acceleration).zip(forces) {
-        let corrected = force * inverse_mass;
-        *velocity += half * (corrected - *acceleration);
-        *acceleration = corrected;
-    }
-}
-
-/// [`kick`] and then [`drift`]: each number is loaded and stored once.
-#[inline(never)]
-fn kick_and_drift(
-    position: &mut [f64],
-    velocity: &mut [f64],
-    acceleration: &mut [f64],
-    force: &[f64],
-    inverse_mass: &[f64],
+/// `x += h v + h^2 a / 2`, `v += h a`.
+struct Drift<'a> {
+    position: &'a mut [f64],
+    velocity: &'a mut [f64],
+    acceleration: &'a [f64],
     step: f64,
-) {
-    let half = 0.5 * step;
-    let forces = force.iter().zip(inverse_mass);
-    let derivatives = velocity.iter_mut().zip(acceleration);
-    for ((position, (velocity, acceleration)), (force, inverse_mass)) in
-        position.iter_mut().zip(derivatives).zip(forces)
-    {
+}
+
+impl LaneWork for Drift<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd, V: Lanes<S>>(self, simd: S) {
+        let step = self.step;
+        each_register::<S, V, Self, 1, 2>(simd, step, [self.acceleration], [self.position, self.velocity]);
+    }
+}
+
+impl Change<1, 2> for Drift<'_> {
+    #[inline(always)]
+    fn of<T: Numbers>([step, half]: [T; 2], [a]: [T; 1], [x, v]: [T; 2]) -> [T; 2] {
+        [x + step * (v + half * a), v + step * a]
+    }
+}
+
+/// `a' = F / m`, `v += h (a' - a) / 2`.
+struct Kick<'a> {
+    velocity: &'a mut [f64],
+    acceleration: &'a mut [f64],
+    force: &'a [f64],
+    inverse_mass: &'a [f64],
+    step: f64,
+}
+
+impl LaneWork for Kick<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd, V: Lanes<S>>(self, simd: S) {
+        let (given, changed) = ([self.force, self.inverse_mass], [self.velocity, self.acceleration]);
+        each_register::<S, V, Self, 2, 2>(simd, self.step, given, changed);
+    }
+}
+
+impl Change<2, 2> for Kick<'_> {
+    #[inline(always)]
+    fn of<T: Numbers>([_, half]: [T; 2], [force, inverse_mass]: [T; 2], [v, a]: [T; 2]) -> [T; 2] {
         let corrected = force * inverse_mass;
-        let kicked = *velocity + half * (corrected - *acceleration);
-        *acceleration = corrected;
-        *position += step * (kicked + half * corrected);
-        *velocity = kicked + step * corrected;
+        [v + half * (corrected - a), corrected]
+    }
+}
+
+/// [`Kick`] and then [`Drift`], with the weights in the place of the forces: each number is loaded and stored once.
+struct KickAndDrift<'a> {
+    position: &'a mut [f64],
+    velocity: &'a mut [f64],
+    acceleration: &'a mut [f64],
+    force: &'a mut [f64],
+    constants: Constants<'a>,
+    step: f64,
+}
+
+impl LaneWork for KickAndDrift<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd, V: Lanes<S>>(self, simd: S) {
+        let changed = [self.position, self.velocity, self.acceleration, self.force];
+        let given = [self.constants.weight, self.constants.inverse_mass];
+        each_register::<S, V, Self, 2, 4>(simd, self.step, given, changed);
+    }
+}
+
+impl Change<2, 4> for KickAndDrift<'_> {
+    #[inline(always)]
+    fn of<T: Numbers>(steps: [T; 2], [weight, inverse_mass]: [T; 2], [x, v, a, force]: [T; 4]) -> [T; 4] {
+        let [kicked, corrected] = Kick::of(steps, [force, inverse_mass], [v, a]);
+        let [moved, predicted] = Drift::of(steps, [corrected], [x, kicked]);
+        [moved, predicted, corrected, weight]
+    }
+}
+
+/// What becomes of numbers of the same index in arrays of which some are GIVEN and some are CHANGED.
+trait Change<const GIVEN: usize, const CHANGED: usize> {
+    /// With the step and half of it.
+    fn of<T: Numbers>(steps: [T; 2], given: [T; GIVEN], changed: [T; CHANGED]) -> [T; CHANGED];
+}
+
+/// Changes arrays of one length, register by register.
+#[inline(always)]
+fn each_register<S: Simd, V: Lanes<S>, C: Change<GIVEN, CHANGED>, const GIVEN: usize, const CHANGED: usize>(
+    simd: S,
+    step: f64,
+    given: [&[f64]; GIVEN],
+    changed: [&mut [f64]; CHANGED],
+) {
+    let length = changed[0].len();
+    let given = given.map(|numbers| &numbers[..length]);
+    let changed = changed.map(|numbers| &mut numbers[..length]);
+    let steps = [V::splat(simd, step), V::splat(simd, 0.5 * step)];
+    let (mut one, mut other) = ([V::splat(simd, 0.0); GIVEN], [V::splat(simd, 0.0); CHANGED]);
+    let whole = length - length % V::LEN;
+    for start in (0..whole).step_by(V::LEN) {
+        let at = start..start + V::LEN;
+        for k in 0..GIVEN {
+            one[k] = V::from_slice(simd, &given[k][at.clone()]);
+        }
+        for k in 0..CHANGED {
+            other[k] = V::from_slice(simd, &changed[k][at.clone()]);
+        }
+        let results = C::of(steps, one, other);
+        for k in 0..CHANGED {
+            results[k].store_slice(&mut changed[k][at.clone()]);
+        }
+    }
+    for n in whole..length {
+        let (one, other) = (
+            given.map(|numbers| numbers[n]),
+            changed.each_ref().map(|numbers| numbers[n]),
+        );
+        let results = C::of([step, 0.5 * step], one, other);
+        for k in 0..CHANGED {
+            changed[k][n] = results[k];
+        }
     }
 }
 

@@ -3,7 +3,9 @@
 //! Momentum is conserved to rounding: the impulses of the walls obey the recursion of the momenta.
 
 mod closed_contacts;
+mod contact_kinds;
 mod contact_laws;
+mod contact_list;
 pub(super) mod contacts;
 mod forces;
 mod gear;
@@ -25,16 +27,19 @@ use crate::geometry::Disk;
 use super::candidates;
 use super::cell_grid::Cloud;
 use super::fixed_grid::{GridState, Stepper};
+use super::lanes::in_lanes;
 use super::setup::{Breakdown, SoftDiskSetup, SoftDisks};
 
+pub use contact_list::{ContactList, Listed};
 pub use contacts::{Pair, SpringMemory, WallContact};
 pub use gear::Gear5;
-pub use integrator::{Coordinates, Integrator, VelocityVerlet};
+pub use integrator::{Constants, Coordinates, Integrator, VelocityVerlet};
 pub use state::Disks;
 
 use closed_contacts::Closed;
-use contact_laws::{ForceSums, LaneLaws, LaneSums};
-use forces::{DiskArrays, ForceArrays, MovingWalls, pair_forces, wall_forces};
+use contact_kinds::{DiskArrays, ForceArrays, MovingWalls};
+use contact_laws::ForceSums;
+use forces::{AddForces, Workspace};
 use neighbour_list::{NeighbourList, farthest_squared, inner_margin};
 
 /// Steps by the integrator I, with the normal force N.
@@ -45,11 +50,13 @@ pub struct PredictorCorrector<I, N = LinearDashpot> {
     inverse_mass: Vec<f64>,
     /// Weight as a flat force.
     weight: Vec<f64>,
-    /// Flat: x, y and torque over radius of each disk, then x and y of each wall \[N\].
+    /// Flat: x, y and torque over radius of each disk, then x and y of each wall \[N\]. An evaluation adds to the weights that it
+    /// finds here.
     force: Vec<f64>,
     /// Radius times angle of each disk \[m\]. Scratch memory of an evaluation.
     arc_lengths: Vec<f64>,
     neighbours: NeighbourList,
+    workspace: Box<Workspace>,
     integrator: PhantomData<I>,
 }
 
@@ -80,6 +87,7 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
             weight,
             force: vec![0.0; length],
             arc_lengths: vec![0.0; disks.len()],
+            workspace: Box::default(),
             neighbours: NeighbourList::new(constants.smallest_radius, disks.len()),
             constants,
             integrator: PhantomData,
@@ -99,6 +107,7 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
     }
 
     fn start<D: Drive>(&mut self, state: &mut GridState<D, Disks>) {
+        self.force.copy_from_slice(&self.weight);
         self.place_moved_disks(state, self.constants.time_of(state.steps));
         self.build_list(state);
         let sums = self.evaluate(state, 0.0);
@@ -113,11 +122,12 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
 
     fn make_room(disks: &mut Disks) {
         let count = disks.positions_at_list_build.len();
-        candidates::make_room(&mut disks.pairs, count);
-        candidates::make_room(&mut disks.wall_contacts, count);
+        disks.pairs.reserve(candidates::room_for(count));
+        disks.wall_contacts.reserve(candidates::room_for(count));
     }
 
     fn step<D: Drive>(&mut self, state: &mut GridState<D, Disks>, duration: f64, time: f64) -> Result<(), Breakdown> {
+        self.force.copy_from_slice(&self.weight);
         I::predict(coordinates(&mut state.disks), duration);
         self.evaluate_prediction(state, duration, time)?;
         I::correct(coordinates(&mut state.disks), &self.force, &self.inverse_mass, duration);
@@ -129,6 +139,7 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
             return Ok(());
         }
         let step = self.constants.setup.time_step;
+        self.force.copy_from_slice(&self.weight);
         I::predict(coordinates(&mut state.disks), step);
         loop {
             self.evaluate_prediction(state, step, self.constants.time_of(state.steps + 1))?;
@@ -138,7 +149,11 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
                 I::correct(coordinates, &self.force, &self.inverse_mass, step);
                 return Ok(());
             }
-            I::correct_and_predict(coordinates, &self.force, &self.inverse_mass, step);
+            let disks = Constants {
+                weight: &self.weight,
+                inverse_mass: &self.inverse_mass,
+            };
+            I::correct_and_predict(coordinates, &mut self.force, disks, step);
         }
     }
 
@@ -171,11 +186,11 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
             setup.laws.normal.energy(overlap.max(0.0)) + setup.laws.tangential.energy(spring.stretch)
         };
         let mut elastic = 0.0;
-        for pair in &disks.pairs {
+        for pair in disks.pairs.iter() {
             let (a, b) = (positions[pair.first as usize], positions[pair.second as usize]);
             elastic += energy(pair.radius_sum - hypot(a[0] - b[0], a[1] - b[1]), &pair.spring);
         }
-        for contact in &disks.wall_contacts {
+        for contact in disks.wall_contacts.iter() {
             let [x, y, _] = positions[contact.disk as usize];
             let distance = setup.walls[contact.wall as usize].distance([x, y], base.displacement);
             elastic += energy(self.constants.radii[contact.disk as usize] - distance, &contact.spring);
@@ -213,14 +228,13 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
         };
         let (disks, radii) = (&state.disks, &self.constants.radii);
         let (count, walls) = (radii.len() as u32, self.constants.setup.walls.len() as u32);
-        let pair_fits = |pair: &Pair| {
+        let pair_fits = |pair: Pair| {
             pair.first < pair.second
                 && pair.second < count
                 && pair.radius_sum == radii[pair.first as usize] + radii[pair.second as usize]
                 && pair.spring.is_sane()
         };
-        let wall_fits =
-            |contact: &WallContact| contact.disk < count && contact.wall < walls && contact.spring.is_sane();
+        let wall_fits = |contact: WallContact| contact.disk < count && contact.wall < walls && contact.spring.is_sane();
         let build = disks.positions_at_list_build.iter().flatten().copied();
         lengths(disks) == lengths(own)
             && disks.pairs.iter().all(pair_fits)
@@ -277,12 +291,8 @@ impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
         closed_before: u32,
     ) -> ForceSums {
         let (setup, radii) = (&self.constants.setup, &self.constants.radii);
-        self.force.copy_from_slice(&self.weight);
         let (on_disks, from_walls) = self.force.split_at_mut(3 * radii.len());
-        let mut forces = ForceArrays {
-            on_disks: on_disks.as_chunks_mut().0,
-            from_walls: from_walls.as_chunks_mut().0,
-        };
+        let from_walls = from_walls.as_chunks_mut().0;
         let (positions, velocities) = (disks.position.as_chunks().0, disks.velocity.as_chunks().0);
         if SPRING {
             let turns = radii.iter().zip(positions);
@@ -291,17 +301,26 @@ impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
             }
         }
         let arrays = DiskArrays::new(positions, velocities, radii, &self.arc_lengths);
-        let laws = LaneLaws::new(&setup.laws, duration);
-        let mut sums = LaneSums::default();
-        pair_forces::<N, SPRING>(&laws, &mut disks.pairs, arrays, forces.on_disks, &mut sums);
-        let walls = MovingWalls {
-            walls: &setup.walls,
-            base,
-        };
-        wall_forces::<N, SPRING>(&laws, &mut disks.wall_contacts, walls, arrays, &mut forces, &mut sums);
-        let vertical = forces.from_walls.iter().zip(&setup.walls);
+        let sums = in_lanes(AddForces::<N, SPRING> {
+            laws: &setup.laws,
+            step: duration,
+            disks: arrays,
+            walls: MovingWalls {
+                walls: &setup.walls,
+                base,
+            },
+            pairs: disks.pairs.eights_mut(),
+            wall_contacts: disks.wall_contacts.eights_mut(),
+            closed: closed_before,
+            forces: ForceArrays {
+                on_disks: on_disks.as_chunks_mut().0,
+                from_walls,
+            },
+            workspace: &mut self.workspace,
+        });
+        let vertical = from_walls.iter().zip(&setup.walls);
         disks.base_force = vertical.map(|(force, wall)| wall.follows_base * force[1]).sum();
-        sums.total::<SPRING>(closed_before)
+        sums
     }
 
     /// Builds the neighbour list anew if a disk or the base has moved by half the margin since it was built.

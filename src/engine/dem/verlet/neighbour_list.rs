@@ -5,12 +5,15 @@
 //! trajectory, depend neither on when a list was built nor on how the cells lie. Source: Verlet 1967,
 //! doi:10.1103/PhysRev.159.98.
 
-use crate::engine::dem::candidates::{make_room, near_walls, renew};
+use fearless_simd::{Simd, SimdBase, f64x2};
+
+use crate::engine::dem::candidates::{make_room, near_walls, room_for};
 use crate::engine::dem::cell_grid::{CellGrid, Cloud};
-use crate::engine::dem::lanes::{F64x2, largest, transpose, xy};
+use crate::engine::dem::lanes::{LaneWork, Lanes, MOST_LANES, in_lanes, largest, xy};
 use crate::geometry::Wall;
 
-use super::contacts::{Pair, SpringMemory, WallContact};
+use super::contact_list::ContactList;
+use super::contacts::{Pair, WallContact};
 
 /// Gap, in smallest radii, below which a pair is in the outer list: it lasts for long at rest and stays short.
 const OUTER_MARGIN: f64 = 0.3;
@@ -39,8 +42,11 @@ pub struct NeighbourList {
     outer: Vec<[u32; 2]>,
     /// Positions when the outer list was built.
     positions_at_build: Vec<[f64; 3]>,
-    scratch: Vec<Pair>,
-    wall_scratch: Vec<WallContact>,
+    /// Pairs of the outer list that are in the inner one, and the sums of their radii.
+    near: Vec<[u32; 2]>,
+    near_sums: Vec<f64>,
+    scratch: ContactList<Pair>,
+    wall_scratch: ContactList<WallContact>,
 }
 
 impl NeighbourList {
@@ -51,13 +57,15 @@ impl NeighbourList {
             ..Self::default()
         };
         make_room(&mut list.outer, disks);
-        make_room(&mut list.scratch, disks);
-        make_room(&mut list.wall_scratch, disks);
+        make_room(&mut list.near, disks);
+        make_room(&mut list.near_sums, disks);
+        list.scratch.reserve(room_for(disks));
+        list.wall_scratch.reserve(room_for(disks));
         list
     }
 
     /// Replaces `pairs` by all pairs whose gap is less than the margin; closed contacts keep their memory.
-    pub fn find_pairs(&mut self, cloud: Cloud<'_>, pairs: &mut Vec<Pair>) {
+    pub fn find_pairs(&mut self, cloud: Cloud<'_>, pairs: &mut ContactList<Pair>) {
         let margin = OUTER_MARGIN * self.smallest_radius;
         let slack = 0.5 * (margin - cloud.margin);
         let lasts = self.positions_at_build.len() == cloud.positions.len()
@@ -67,20 +75,23 @@ impl NeighbourList {
             self.positions_at_build.clear();
             self.positions_at_build.extend_from_slice(cloud.positions);
         }
-        let inner = self.outer.iter().filter_map(|&[first, second]| {
+        // Without a branch on whether a pair is near: it would be wrong too often.
+        let Self {
+            outer, near, near_sums, ..
+        } = self;
+        near.resize(outer.len(), [0; 2]);
+        near_sums.resize(outer.len(), 0.0);
+        let mut count = 0;
+        for &[first, second] in &*outer {
             let (i, j) = (first as usize, second as usize);
             let radius_sum = cloud.radii[i] + cloud.radii[j];
             let ([x1, y1, _], [x2, y2, _]) = (cloud.positions[i], cloud.positions[j]);
             let ((dx, dy), range) = ((x1 - x2, y1 - y2), radius_sum + cloud.margin);
             let beyond = dx * dx + dy * dy >= range * range;
-            (!beyond).then_some(Pair {
-                first,
-                second,
-                radius_sum,
-                spring: SpringMemory::OPEN,
-            })
-        });
-        renew(pairs, &mut self.scratch, inner);
+            (near[count], near_sums[count]) = ([first, second], radius_sum);
+            count += usize::from(!beyond);
+        }
+        pairs.renew(&near[..count], &near_sums[..count], &mut self.scratch);
     }
 
     /// Replaces `contacts` by all disks whose gap to a wall is less than the margin.
@@ -89,40 +100,57 @@ impl NeighbourList {
         cloud: Cloud<'_>,
         walls: &[Wall],
         base_displacement: f64,
-        contacts: &mut Vec<WallContact>,
+        contacts: &mut ContactList<WallContact>,
     ) {
-        let near = near_walls(cloud, walls, base_displacement).map(|[disk, wall]| WallContact {
-            disk,
-            wall,
-            spring: SpringMemory::OPEN,
-        });
-        renew(contacts, &mut self.wall_scratch, near);
+        let Self { near, near_sums, .. } = self;
+        near.clear();
+        near.extend(near_walls(cloud, walls, base_displacement));
+        near_sums.clear();
+        near_sums.resize(near.len(), 0.0);
+        contacts.renew(near, near_sums, &mut self.wall_scratch);
     }
 }
 
 /// Largest square of a distance \[m2\] between the positions in two lists.
 pub fn farthest_squared(now: &[[f64; 3]], then: &[[f64; 3]]) -> f64 {
     let count = now.len().min(then.len());
-    let (now, now_rest) = now[..count].as_chunks();
-    let (then, then_rest) = then[..count].as_chunks();
-    let mut farthest = F64x2::splat(0.0);
-    for (now, then) in now.iter().zip(then) {
-        farthest = distances_squared(now, then).fast_max(farthest);
-    }
-    if let ([now], [then]) = (now_rest, then_rest) {
-        farthest = distances_squared(&[*now; 2], &[*then; 2]).fast_max(farthest);
-    }
-    largest(farthest)
+    in_lanes(Farthest {
+        now: &now[..count],
+        then: &then[..count],
+    })
 }
 
-#[inline(always)]
-fn distances_squared(now: &[[f64; 3]; 2], then: &[[f64; 3]; 2]) -> F64x2 {
-    let [dx, dy] = transpose([0, 1].map(|k| xy(&now[k]) - xy(&then[k])));
-    dx * dx + dy * dy
+struct Farthest<'a> {
+    now: &'a [[f64; 3]],
+    then: &'a [[f64; 3]],
+}
+
+impl LaneWork for Farthest<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<S: Simd, V: Lanes<S>>(self, simd: S) -> f64 {
+        let (now, then) = (self.now.chunks_exact(V::LEN), self.then.chunks_exact(V::LEN));
+        let rest = now.remainder().iter().zip(then.remainder());
+        let mut farthest = V::splat(simd, 0.0);
+        for (now, then) in now.zip(then) {
+            let mut moved = [f64x2::splat(simd, 0.0); MOST_LANES];
+            for k in 0..V::LEN {
+                moved[k] = xy(simd, &now[k]) - xy(simd, &then[k]);
+            }
+            let [dx, dy] = V::columns(&moved);
+            farthest = (dx * dx + dy * dy).max(farthest);
+        }
+        let squares = rest.map(|(now, then)| [now[0] - then[0], now[1] - then[1]]);
+        squares
+            .map(|[dx, dy]| dx * dx + dy * dy)
+            .fold(largest(farthest), f64::max)
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::contacts::SpringMemory;
     use super::*;
     use rand_pcg::Pcg64;
     use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -143,7 +171,7 @@ mod tests {
             places[17] = [0.0, 1e6, 0.0];
             let radii: Vec<f64> = (0..count).map(|_| 0.01 + 0.02 * uniform(&mut random)).collect();
             let margin = 0.003;
-            let mut pairs = Vec::new();
+            let mut pairs = ContactList::default();
             NeighbourList::new(0.01, 100).find_pairs(
                 Cloud {
                     positions: &places,
@@ -161,7 +189,7 @@ mod tests {
                     }
                 }
             }
-            let found: Vec<_> = pairs.iter().map(|pair| (pair.first, pair.second)).collect();
+            let found: Vec<_> = pairs.iter().map(|pair: Pair| (pair.first, pair.second)).collect();
             assert_eq!(found, expected);
         }
     }
@@ -175,17 +203,19 @@ mod tests {
             margin: 0.002,
         };
         let mut list = NeighbourList::new(0.01, 100);
-        let mut pairs = Vec::new();
+        let mut pairs = ContactList::default();
         list.find_pairs(cloud, &mut pairs);
-        assert_eq!(pairs.len(), 2);
+        let mut found: Vec<Pair> = pairs.iter().collect();
+        assert_eq!(found.len(), 2);
         let spring = SpringMemory {
             direction: [1.0, 0.0],
             reference: 0.5,
             stretch: 0.25,
         };
-        pairs[1].spring = spring;
+        found[1].spring = spring;
+        pairs = found.into();
         list.find_pairs(cloud, &mut pairs);
-        assert_eq!(pairs[0].spring, SpringMemory::OPEN);
-        assert_eq!(pairs[1].spring, spring);
+        let springs: Vec<_> = pairs.iter().map(|pair| pair.spring).collect();
+        assert_eq!(springs, [SpringMemory::OPEN, spring]);
     }
 }

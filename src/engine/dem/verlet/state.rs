@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::clone_in_place::clone_in_place;
 
+use super::contact_list::ContactList;
 use super::contacts::{Pair, WallContact};
 
 /// Disks at one point of the grid of time. Degrees of freedom are flat: x, y, angle of disk 0, of disk 1, ..., then the
@@ -19,9 +20,9 @@ pub struct Disks {
     /// Higher derivatives, if the integrator keeps any.
     pub higher: Vec<f64>,
     /// Neighbour list: disks that may touch before it is built again.
-    pub pairs: Vec<Pair>,
+    pub pairs: ContactList<Pair>,
     /// Disks that may touch a wall before the list is built again.
-    pub wall_contacts: Vec<WallContact>,
+    pub wall_contacts: ContactList<WallContact>,
     /// Positions (x, y, angle) when the list was built.
     pub positions_at_list_build: Vec<[f64; 3]>,
     /// Base displacement \[m\] when the list was built.
@@ -67,8 +68,6 @@ impl Disks {
 
     /// How many contacts remember that they are closed; none does without tangential springs.
     pub fn closed_contacts(&self) -> u32 {
-        let pairs = self.pairs.iter().filter(|pair| pair.spring.is_closed());
-        let wall_contacts = self.wall_contacts.iter().filter(|contact| contact.spring.is_closed());
-        (pairs.count() + wall_contacts.count()) as u32
+        (self.pairs.closed() + self.wall_contacts.closed()) as u32
     }
 }

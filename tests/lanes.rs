@@ -38,7 +38,11 @@ fn the_bits_do_not_depend_on_the_width() {
         for most in [4, 8] {
             limit_lanes(most);
             println!("{disks} disks, friction {friction}: {} lanes", lanes());
-            assert!(state_after(disks, friction, end_time) == two, "{disks} disks, {} lanes", lanes());
+            assert!(
+                state_after(disks, friction, end_time) == two,
+                "{disks} disks, {} lanes",
+                lanes()
+            );
         }
     }
 }

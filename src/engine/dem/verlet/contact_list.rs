@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::engine::dem::candidates::Candidate;
 use crate::engine::dem::lanes::MOST_LANES;
 
-use super::contacts::SpringMemory;
+use super::contacts::{Pair, SpringMemory, WallContact};
 
 /// Eight candidates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,6 +106,45 @@ pub trait Listed: Candidate {
 
     /// What it remembers.
     fn spring(&self) -> SpringMemory;
+}
+
+impl Listed for Pair {
+    /// Disks without radii.
+    const LENGTH_OF_NONE: f64 = 0.0;
+
+    fn new([first, second]: [u32; 2], radius_sum: f64, spring: SpringMemory) -> Self {
+        Self {
+            first,
+            second,
+            radius_sum,
+            spring,
+        }
+    }
+
+    fn length(&self) -> f64 {
+        self.radius_sum
+    }
+
+    fn spring(&self) -> SpringMemory {
+        self.spring
+    }
+}
+
+impl Listed for WallContact {
+    /// Distance by which a disk is farther away than it is.
+    const LENGTH_OF_NONE: f64 = f64::INFINITY;
+
+    fn new([disk, wall]: [u32; 2], _: f64, spring: SpringMemory) -> Self {
+        Self { disk, wall, spring }
+    }
+
+    fn length(&self) -> f64 {
+        0.0
+    }
+
+    fn spring(&self) -> SpringMemory {
+        self.spring
+    }
 }
 
 /// Candidates in the order of their indices.

@@ -6,8 +6,6 @@ use crate::engine::dem::angle::{SMALL_SINE, angle_between};
 use crate::engine::dem::candidates::Candidate;
 use crate::error::are_sane;
 
-use super::contact_list::Listed;
-
 /// Two disks in the neighbour list; `first < second`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pair {
@@ -49,45 +47,6 @@ impl Candidate for WallContact {
 
     fn remembers(&self) -> bool {
         self.spring.is_closed()
-    }
-}
-
-impl Listed for Pair {
-    /// Disks without radii.
-    const LENGTH_OF_NONE: f64 = 0.0;
-
-    fn new([first, second]: [u32; 2], radius_sum: f64, spring: SpringMemory) -> Self {
-        Self {
-            first,
-            second,
-            radius_sum,
-            spring,
-        }
-    }
-
-    fn length(&self) -> f64 {
-        self.radius_sum
-    }
-
-    fn spring(&self) -> SpringMemory {
-        self.spring
-    }
-}
-
-impl Listed for WallContact {
-    /// Distance by which a disk is farther away than it is.
-    const LENGTH_OF_NONE: f64 = f64::INFINITY;
-
-    fn new([disk, wall]: [u32; 2], _: f64, spring: SpringMemory) -> Self {
-        Self { disk, wall, spring }
-    }
-
-    fn length(&self) -> f64 {
-        0.0
-    }
-
-    fn spring(&self) -> SpringMemory {
-        self.spring
     }
 }
 

@@ -122,20 +122,23 @@ pub fn in_lanes<W: LaneWork>(work: W) -> W::Output {
                 || work.run::<_, f64x4<_>>(simd),
             );
         }
-        if let Some(simd) = level.as_sse2() {
-            return simd.vectorize(
-                #[inline(always)]
-                || work.run::<_, f64x2<_>>(simd),
-            );
-        }
+        let Some(simd) = level.as_sse2() else {
+            unreachable!("every x86-64 has SSE2");
+        };
+        simd.vectorize(
+            #[inline(always)]
+            || work.run::<_, f64x2<_>>(simd),
+        )
     }
     // Every other target has one set of instructions, which its compiler knows.
+    #[cfg(not(target_arch = "x86_64"))]
     fearless_simd::dispatch!(Level::baseline(), simd => work.run::<_, f64x2<_>>(simd))
 }
 
 static ALLOWED: AtomicUsize = AtomicUsize::new(0);
 
 /// Lanes that are used, if the processor has them. Read from the environment once.
+#[cfg(target_arch = "x86_64")]
 fn most_lanes() -> usize {
     match ALLOWED.load(Ordering::Relaxed) {
         0 => {
@@ -153,7 +156,7 @@ fn most_lanes() -> usize {
 }
 
 /// Lets this process compute with no more than `most` lanes (2, 4 or 8) from now on, for measurements and for tests: the bits are
-/// the same.
+/// the same. Only x86-64 has a choice.
 pub fn limit_lanes(most: usize) {
     ALLOWED.store(most.clamp(2, 8), Ordering::Relaxed);
 }

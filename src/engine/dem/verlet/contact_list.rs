@@ -196,6 +196,19 @@ impl<C: Listed> ContactList<C> {
             .map(|(eight, k)| C::new(eight.bodies[k], eight.length[k], eight.springs.get(k)))
     }
 
+    /// Changes what they remember, one by one.
+    pub fn change_springs(&mut self, mut change: impl FnMut(&mut SpringMemory)) {
+        let mut left = self.count;
+        for eight in &mut self.eights {
+            for k in 0..left.min(MOST_LANES) {
+                let mut spring = eight.springs.get(k);
+                change(&mut spring);
+                eight.springs.set(k, spring);
+            }
+            left = left.saturating_sub(MOST_LANES);
+        }
+    }
+
     /// How many of them remember that they are closed.
     pub fn closed(&self) -> usize {
         self.iter().filter(Candidate::remembers).count()

@@ -21,20 +21,20 @@ impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
         }
         let tangential = setup.laws.tangential;
         if acted && !tangential.acts() {
-            let release = |spring: &mut SpringMemory| {
-                let energy = tangential.energy(spring.stretch);
+            let mut released = 0.0;
+            let mut release = |spring: &mut SpringMemory| {
+                released += tangential.energy(spring.stretch);
                 *spring = SpringMemory::OPEN;
-                energy
             };
-            let of_pairs: f64 = state.disks.pairs.iter_mut().map(|pair| release(&mut pair.spring)).sum();
-            let walls = state.disks.wall_contacts.iter_mut();
-            let of_walls: f64 = walls.map(|contact| release(&mut contact.spring)).sum();
-            state.energy_lost += of_pairs + of_walls;
+            state.disks.pairs.change_springs(&mut release);
+            state.disks.wall_contacts.change_springs(&mut release);
+            state.energy_lost += released;
         }
         if !acted && tangential.acts() {
             // Without springs no contact remembers that it is closed: each closes now.
             state.contacts = 0;
         }
+        self.force.copy_from_slice(&self.weight);
         let sums = self.evaluate(state, 0.0);
         self.carry_moved_disks(state, 0.0);
         let accelerations = state.disks.acceleration.iter_mut();

@@ -17,6 +17,7 @@ mod observables;
 mod sampler;
 mod setup;
 mod time_step_limits;
+mod two_lanes;
 pub mod verlet;
 
 pub use crate::contact::ContactLaws;

@@ -4,7 +4,7 @@
 //! end of the step without the contact's own force gives the external acceleration as a line in time. Under it each segment
 //! is a power series (`segment`), and its impulse is that along Hermite's cubic between its ends.
 
-use crate::engine::dem::lanes::{F64x2, lane};
+use crate::engine::dem::two_lanes::{F64x2, lane};
 
 use super::contact_step::{ContactStep, Outcome};
 use super::cubic::{Cubic, NODE};

@@ -1,6 +1,6 @@
 //! Disks as the passes over the contacts see them: what two contacts need of a disk lies together, in lanes.
 
-use crate::engine::dem::lanes::{F64x2, xy};
+use crate::engine::dem::two_lanes::{F64x2, xy};
 use crate::geometry::Wall;
 
 use super::kinematics::RelativeArcs;

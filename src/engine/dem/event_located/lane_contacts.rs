@@ -3,7 +3,7 @@
 //! The formulas are those of P 4.2 along Hermite's cubics between the ends. Contacts in one pair of lanes are all sticking or
 //! all slipping, so that nothing branches. What changes its phase is found here and left to `contact_events`.
 
-use crate::engine::dem::lanes::{F64x2, lane, per_lane};
+use crate::engine::dem::two_lanes::{F64x2, lane, per_lane};
 
 use super::cubic::{Cubic, integrals};
 use super::disk_records::DiskRecord;

@@ -1,7 +1,7 @@
 //! How the bodies of two contacts lie and move, in lanes: pairs of disks, and disks at walls.
 
 use crate::engine::dem::angle::{SMALL_SINE, angle_between};
-use crate::engine::dem::lanes::{F64x2, lane, per_lane, transpose};
+use crate::engine::dem::two_lanes::{F64x2, lane, per_lane, transpose};
 
 use super::cubic::{Cubic, integrals};
 use super::disk_records::{DiskRecord, ImpulseSums};

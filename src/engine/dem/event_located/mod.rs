@@ -37,8 +37,8 @@ use crate::geometry::Disk;
 
 use super::candidates::{self, Candidate};
 use super::fixed_grid::{GridState, Stepper};
-use super::lanes::largest;
 use super::setup::{Breakdown, SoftDiskSetup, SoftDisks};
+use super::two_lanes::largest;
 
 pub use state::{Contact, Disks, Kinematics, LocatedPhase};
 

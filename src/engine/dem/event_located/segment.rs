@@ -4,7 +4,7 @@
 //! `delta'' = a_n - N / m`, `lambda'' = a_t + tau / m_t`, with N of delta and its rate, and tau of the stretch while sticking,
 //! of N while slipping.
 
-use crate::engine::dem::lanes::{F64x2, lane};
+use crate::engine::dem::two_lanes::{F64x2, lane};
 
 use super::laws::Laws;
 use super::polynomial::{LENGTH, Polynomial};

@@ -10,7 +10,7 @@ use super::lane_geometry::{PairLanes, Receivers, WallLanes};
 use super::state::{Contact, Kinematics, LocatedPhase};
 use super::step_context::StepContext;
 use crate::engine::dem::angle::angle_between;
-use crate::engine::dem::lanes::F64x2;
+use crate::engine::dem::two_lanes::F64x2;
 
 /// A contact after a step.
 pub struct Integrated {

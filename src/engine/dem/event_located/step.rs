@@ -1,6 +1,6 @@
 //! One step: predict, integrate every contact along the motion found so far, correct by the impulses, and again.
 
-use crate::engine::dem::lanes::F64x2;
+use crate::engine::dem::two_lanes::F64x2;
 
 use super::contact_groups::{ContactGroups, Pass, StepSums};
 use super::disk_records::{DiskRecord, ImpulseSums, free_flight, inverse_masses_of_record};

@@ -1,13 +1,13 @@
 //! `jostle describe`: the variables of a scene as a table.
 
 use clap::Args;
-use jostle::scene::{Kind, Variable};
+use jostle::scene::{Kind, StructuralParameters, Variable};
 
 use crate::failure::Failure;
 use crate::selection::{self, Selected, Selection};
-use crate::{standard_output, text};
+use crate::{laboratory, standard_output, text};
 
-/// Lists the variables of a scene: name, causality, unit, range, start value, meaning.
+/// Lists the variables of a scene, or of a component of the shaker laboratory: name, causality, unit, range, start value, meaning.
 ///
 /// Variables of every disk share a line, disk.angle[1..60]; --all gives each its own.
 #[derive(Args)]
@@ -25,7 +25,15 @@ pub struct Describe {
 
 impl Describe {
     pub fn execute(self) -> Result<(), Failure> {
-        let page = page(&self.selection.find(self.drive.as_deref())?, self.all);
+        let page = match laboratory::find(&self.selection.scene) {
+            Some(model) => {
+                laboratory::refuse_options(&self.selection, self.drive.as_deref())?;
+                let info = (model.info)();
+                let variables = (model.variables)(&StructuralParameters::defaults(&info));
+                format!("{}: {}\n\n{}", info.name, info.description, list(&variables, self.all))
+            }
+            None => page(&self.selection.find(self.drive.as_deref())?, self.all),
+        };
         standard_output::write(&page)
     }
 }
@@ -33,18 +41,7 @@ impl Describe {
 /// Head line and table.
 fn page(selected: &Selected, all: bool) -> String {
     let (info, names) = (&selected.info, selected.names);
-    let mut rows = vec![
-        ["name", "causality", "unit", "range", "start", "description"]
-            .map(String::from)
-            .to_vec(),
-    ];
     let variables = (selected.model.variables)(&selected.structure);
-    let mut rest = variables.as_slice();
-    while let Some(first) = rest.first() {
-        let run = if all { 1 } else { run_length(rest) };
-        rows.push(line(first, run));
-        rest = &rest[run..];
-    }
     let title = format!(
         "{}, {}, drive {}, {} disks",
         names.scene,
@@ -52,7 +49,23 @@ fn page(selected: &Selected, all: bool) -> String {
         names.drive,
         selected.structure.get("disks")
     );
-    format!("{title}: {}\n\n{}", info.description, text::table(&rows))
+    format!("{title}: {}\n\n{}", info.description, list(&variables, all))
+}
+
+/// The table.
+fn list(variables: &[Variable], all: bool) -> String {
+    let mut rows = vec![
+        ["name", "causality", "unit", "range", "start", "description"]
+            .map(String::from)
+            .to_vec(),
+    ];
+    let mut rest = variables;
+    while let Some(first) = rest.first() {
+        let run = if all { 1 } else { run_length(rest) };
+        rows.push(line(first, run));
+        rest = &rest[run..];
+    }
+    text::table(&rows)
 }
 
 /// How many rows from the first on are the elements [1], [2], ... of one name.

@@ -6,21 +6,21 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use clap::{Args, ValueEnum};
 use fmi_bundle::{Component, Libraries, Notices, Origin, Platform, Version, find_library, nominal_amplitude};
 use jostle::Error;
-use jostle::scene::{Kind, Unit, Variable};
+use jostle::scene::{Kind, ModelType, Unit, Variable};
 
 use crate::failure::Failure;
 use crate::selection::{self, Selection};
-use crate::{changes, icon, output_file};
+use crate::{changes, icon, laboratory, output_file};
 
 /// The last second of the year 9999.
 const LATEST_DATE: u64 = 253_402_300_799;
 
-/// Write a scene as an FMU.
+/// Write a scene, or a component of the shaker laboratory, as an FMU.
 ///
 /// The FMU holds the library, the model description, a documentation page, an icon and the licences. What drives the
 /// scene and how many disks it has is decided here, since both change its list of variables.
 #[derive(Args, Debug)]
-#[command(after_help = format!("{}\nExample:\n  jostle fmu packing --fmi 3 --disks 60 --out packing.fmu", selection::list()))]
+#[command(after_help = format!("{}\n{}\nExample:\n  jostle fmu packing --fmi 3 --disks 60 --out packing.fmu", selection::list(), laboratory::list()))]
 pub struct Fmu {
     #[command(flatten)]
     selection: Selection,
@@ -43,8 +43,9 @@ pub struct Fmu {
     out: PathBuf,
 }
 
+/// Version of the standard.
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum Standard {
+pub enum Standard {
     /// FMI 2.0, co-simulation.
     #[value(name = "2")]
     Two,
@@ -59,26 +60,25 @@ impl Fmu {
     /// # Errors
     /// An unknown scene, engine or drive, a wrong disk count, no library to put in, no place to write to.
     pub fn execute(self) -> Result<(), Failure> {
-        let selected = self.selection.find(self.drive.as_deref())?;
+        let mut component = match laboratory::find(&self.selection.scene) {
+            Some(model) => {
+                laboratory::refuse_options(&self.selection, self.drive.as_deref())?;
+                prepared(&model, &[])?
+            }
+            None => {
+                let selected = self.selection.find(self.drive.as_deref())?;
+                let structure: Vec<_> = selected.structure.iter().collect();
+                prepared(&selected.model, &structure)?
+            }
+        };
         output_file::check_fmu("--out", &self.out)?;
         if self.arrays && matches!(self.fmi, Standard::Two) {
             let allowed = "3 with --arrays, since FMI 2.0 has no array variables";
             return Err(Error::parameter("--fmi", 2, allowed, "Give --fmi 3, or leave --arrays out.").into());
         }
-        let structure: Vec<_> = selected.structure.iter().collect();
-        let mut component = Component::new(&selected.model, &structure)?;
-        let version = match self.fmi {
-            Standard::Two => Version::Two,
-            Standard::Three => Version::Three,
-        };
         component.arrays = self.arrays;
-        component.date = Some(date()?);
-        component.notices = notices();
-        component.origin = origin();
-        component.icon = Some(icon::of(component.info().name)?);
-        component.replay_command = Some("jostle replay FILE.fmu".into());
-        component.amplitude = reference_amplitude;
-        let libraries = libraries(&component.info().identifier, self.libraries.as_deref())?;
+        let version = self.fmi.version();
+        let libraries = libraries(&component, self.libraries.as_deref())?;
         fmi_bundle::write(&component, version, &libraries, &self.out)?;
         for platform in libraries.left_out(version) {
             eprintln!("jostle: FMI 2.0 has no folder for {platform}: its library is left out");
@@ -87,14 +87,45 @@ impl Fmu {
     }
 }
 
-/// The libraries of a scene: those in `folder`, and for this system that beside the program where `folder` has none.
-fn libraries(identifier: &str, folder: Option<&Path>) -> Result<Libraries, Error> {
+impl Standard {
+    /// The same for the library.
+    pub fn version(self) -> Version {
+        match self {
+            Self::Two => Version::Two,
+            Self::Three => Version::Three,
+        }
+    }
+}
+
+/// A model with all that each of our FMUs holds.
+///
+/// # Errors
+/// A structural parameter that it does not take, a wrong date.
+pub fn prepared(model: &ModelType, structure: &[(&str, u32)]) -> Result<Component, Failure> {
+    let mut component = Component::new(model, structure)?;
+    component.date = Some(date()?);
+    component.notices = notices();
+    component.origin = origin();
+    component.icon = Some(icon::of(component.info().name)?);
+    component.replay_command = Some("jostle replay FILE.fmu".into());
+    component.amplitude = reference_amplitude;
+    Ok(component)
+}
+
+/// The libraries of a component: those in `folder`, and for this system that beside the program where `folder` has none.
+///
+/// # Errors
+/// There is none, or a folder that holds what is no library.
+pub fn libraries(component: &Component, folder: Option<&Path>) -> Result<Libraries, Error> {
+    // Libraries of the laboratory are told from others in one folder by the beginning of their names.
+    let identifier = &component.info().identifier;
+    let identifier = format!("jostle_{}", identifier.trim_start_matches("jostle_"));
     let mut libraries = match folder {
-        Some(folder) => Libraries::from_folder(folder, identifier)?,
+        Some(folder) => Libraries::from_folder(folder, &identifier)?,
         None => Libraries::default(),
     };
     if Platform::host().is_none_or(|host| libraries.get(host).is_none()) {
-        libraries.add_file(&library(identifier)?)?;
+        libraries.add_file(&library(&identifier)?)?;
     }
     Ok(libraries)
 }

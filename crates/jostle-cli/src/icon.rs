@@ -111,7 +111,16 @@ const THREE_DISK: Picture = Picture {
     ],
 };
 
-/// The icon of a scene with a transparent background; of an unknown one that of the ratchet.
+/// A plate on the cone of a loudspeaker, and a disk on it: the components of the laboratory.
+const SHAKER: Picture = Picture {
+    ground: &[
+        &[(0.3, 0.0), (0.7, 0.0), (0.7, 0.2), (0.3, 0.2)],
+        &[(0.4, 0.2), (0.6, 0.2), (0.9, 0.5), (0.1, 0.5)],
+    ],
+    disks: &[disk(0.5, 0.72, 0.2, ORANGE)],
+};
+
+/// The icon of a scene or component with a transparent background.
 ///
 /// # Errors
 /// The PNG writer fails.
@@ -120,7 +129,8 @@ pub fn of(scene: &str) -> Result<Icon> {
         "packing" => &PACKING,
         "wedge" => &WEDGE,
         "three_disk" => &THREE_DISK,
-        _ => &RATCHET,
+        "ratchet" => &RATCHET,
+        _ => &SHAKER,
     };
     let png = png(picture).map_err(|error| Error::call(format!("the icon: {error}"), "Please report this defect."))?;
     Ok(Icon {

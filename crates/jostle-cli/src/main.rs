@@ -14,6 +14,7 @@ mod fields;
 mod fmu;
 mod icon;
 mod interruption;
+mod laboratory;
 mod nearest;
 mod output_file;
 mod progress;

@@ -39,6 +39,8 @@ class Accelerometer:
     bandwidth: float | None = None
     """-3 dB frequency of the low-pass [Hz], or None."""
     filter_order: int = 4
+    bias: float = 0.0
+    """What is added to each reading before it is rounded [g]."""
     gravity: float = 9.8
     """Gravity of the laboratory [m/s2]."""
 
@@ -77,7 +79,7 @@ class Accelerometer:
             rest = signal.sosfilt_zi(sections) * felt[0]
             felt, _ = signal.sosfilt(sections, felt, zi=rest)
         samples = np.asarray(felt[stride - 1 :: stride], dtype=np.float64)
-        noisy = samples + self.noise() * generator.standard_normal(samples.shape)
+        noisy = samples + self.bias + self.noise() * generator.standard_normal(samples.shape)
         if self.resolution > 0.0:
             noisy = np.round(noisy / self.resolution) * self.resolution
         return np.clip(noisy, -self.measuring_range, self.measuring_range)

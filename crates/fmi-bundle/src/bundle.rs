@@ -58,6 +58,14 @@ pub fn find_library(identifier: &str, folders: &[&Path]) -> Result<PathBuf> {
 /// There is no library for this system among them, it is not that of `component`, or the FMU cannot be written. There is then no
 /// new file, and one that was there is as before.
 pub fn write(component: &Component, version: Version, libraries: &Libraries, out: &Path) -> Result<()> {
+    write_file(out, &checked(component, version, libraries)?)
+}
+
+/// The bytes that [`write`] writes.
+///
+/// # Errors
+/// As of [`write`], but for the file.
+pub(crate) fn checked(component: &Component, version: Version, libraries: &Libraries) -> Result<Vec<u8>> {
     let library = Platform::host().and_then(|host| libraries.path(host)).ok_or_else(|| {
         let host = Platform::host().map_or("an unknown system", Platform::name);
         Error::call(
@@ -67,7 +75,7 @@ pub fn write(component: &Component, version: Version, libraries: &Libraries, out
     })?;
     let bytes = pack(component, version, libraries)?;
     check_library(library, &bytes)?;
-    write_file(out, &bytes)
+    Ok(bytes)
 }
 
 /// Writes a file whole or not at all: beside the target and then renamed, so that nobody meets half an FMU.

@@ -5,6 +5,8 @@
 //! [`Libraries`] that export the model, one for each [`Platform`]; [`replay()`] runs the library of this system in such a file and
 //! compares it with the trajectory beside it. [`merge()`] joins FMUs of one model that were made on different systems.
 //!
+//! Several of them, connected, are a [`system::System`], which becomes an SSP archive.
+//!
 //! ```text
 //! Component -> model_description, documentation, terminals, reference -> bundle -> FILE.fmu -> merge, replay
 //! ```
@@ -26,6 +28,7 @@ mod program;
 pub mod reference;
 mod related_files;
 mod replay;
+pub mod system;
 pub mod terminals;
 mod xml;
 

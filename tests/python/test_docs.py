@@ -140,6 +140,15 @@ def test_fmus_are_made_as_the_guide_says(reference: Printed):
     check(python(snippet(CONTROL, "python", "fmpy")), reference)
 
 
+def test_shaker_of_the_system_file_holds_gamma():
+    shell(snippet(CONTROL, "sh", "shaker-system"))
+    output = python(snippet(CONTROL, "python", "shaker-system"))
+    found = re.fullmatch(r"Gamma (\S+) at \S+ V\namplitude by the accelerometer (\S+) g\n", output)
+    assert found, output
+    assert float(found[1]) == pytest.approx(2.0, abs=0.1)
+    assert float(found[2]) == pytest.approx(2.0, abs=0.02)
+
+
 def test_torque_demo_holds_the_disk():
     output = shell(snippet(CONTROL, "sh", "torque-demo"))
     assert "event mode" in output

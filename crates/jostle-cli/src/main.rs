@@ -25,6 +25,7 @@ mod sample_times;
 mod samples;
 mod selection;
 mod standard_output;
+mod system;
 mod table;
 mod text;
 mod theory;
@@ -50,6 +51,7 @@ enum Command {
     Fmu(fmu::Fmu),
     Replay(replay::Replay),
     Run(run::Run),
+    System(system::System),
     Theory(theory::Theory),
     View(view::View),
 }
@@ -62,6 +64,7 @@ fn main() -> ExitCode {
         Command::Fields(fields) => fields.execute(),
         Command::Fmu(fmu) => fmu.execute(),
         Command::Run(run) => run.execute(),
+        Command::System(system) => system.execute(),
         Command::Theory(theory) => theory.execute(),
         Command::View(view) => view.execute(),
     };

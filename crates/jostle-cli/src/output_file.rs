@@ -114,6 +114,14 @@ pub fn check_fmu(option: &str, path: &Path) -> Result<(), Error> {
     check_ending(option, path, &["fmu"], "by which importers know an FMU")
 }
 
+/// Refuses a name that does not end as that of an SSP archive.
+///
+/// # Errors
+/// Another ending, or none: tools go by it.
+pub fn check_ssp(option: &str, path: &Path) -> Result<(), Error> {
+    check_ending(option, path, &["ssp"], "by which tools know a system")
+}
+
 /// Whether the name stands for standard output.
 pub fn is_standard_output(path: &Path) -> bool {
     path == Path::new("-")

@@ -234,7 +234,7 @@ mod tests {
     /// The disks of a scene touch each other and the walls, or are apart: none reaches into another by more than can be seen.
     #[test]
     fn no_disk_of_an_icon_is_inside_another() {
-        for picture in [PACKING, RATCHET, WEDGE, THREE_DISK] {
+        for picture in [PACKING, RATCHET, WEDGE, THREE_DISK, SHAKER] {
             for (number, one) in picture.disks.iter().enumerate() {
                 assert!(one.centre.0 - one.radius > 0.0 && one.centre.0 + one.radius < 1.0);
                 assert!(one.centre.1 - one.radius > 0.0 && one.centre.1 + one.radius < 1.0);

@@ -62,6 +62,10 @@ impl System {
     pub fn execute(self) -> Result<(), Failure> {
         output_file::check_ssp("--out", &self.out)?;
         let Name::Shaker = self.name;
+        if !(1e-3..=1e3).contains(&self.gamma) {
+            let remedy = "The packing leaves the base above 1.";
+            return Err(Error::parameter("--gamma", self.gamma, "a number from 0.001 to 1000", remedy).into());
+        }
         let (packing, weight, gravity) = self.packing()?;
         let part = |name| self.laboratory(name);
         let parts = Parts {

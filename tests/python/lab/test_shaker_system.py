@@ -239,3 +239,22 @@ def test_the_spectral_amplitude_says_what_the_controller_holds(folder: Path) -> 
     expected = spectral_amplitude(record, 200.0, 80.0).amplitude
     assert found[-1, 1] == pytest.approx(expected, rel=0.02)
     assert found[-400:, 2].mean() == pytest.approx(2.0, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["fmu", "camera", "--disks", "5", "--out", "camera.fmu"], "--disks = 5 is not allowed"),
+        (["describe", "loudspeaker", "--engine", "map"], "a component of the shaker laboratory"),
+        (["system", "shaker", "--gamma", "-1", "--out", "shaker.ssp"], "--gamma = -1 is not allowed"),
+        (["system", "shaker", "--disks", "0", "--out", "shaker.ssp"], "from 1 to"),
+        (["system", "shaker", "--out", "shaker.zip"], "ends in .ssp"),
+    ],
+)
+def test_what_cannot_be_written_is_refused_in_the_words_of_the_options(
+    jostle: Path, tmp_path: Path, arguments: list[str], said: str
+) -> None:
+    done = subprocess.run([jostle, *arguments], capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert done.returncode == 2
+    assert said in done.stderr
+    assert list(tmp_path.iterdir()) == []

@@ -21,6 +21,7 @@ fn limits(variable: &Variable) -> Vec<Value> {
             vec![Value::Integer(*range.start()), Value::Integer(*range.end())]
         }
         Kind::Enumeration { options, .. } => (1..=options.len() as i64).map(Value::Integer).collect(),
+        other => panic!("no scene has a variable of this kind: {other:?}"),
     }
 }
 

@@ -36,6 +36,7 @@ fn extreme(generator: &mut Pcg64, kind: &Kind) -> Value {
             &[*range.start(), *range.end(), 42.clamp(*range.start(), *range.end())],
         )),
         Kind::Enumeration { options, .. } => Value::Integer(generator.random_range(1..=options.len() as i64)),
+        other => panic!("no scene has a parameter or input of this kind: {other:?}"),
     }
 }
 

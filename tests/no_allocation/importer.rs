@@ -149,9 +149,9 @@ impl Importer {
             Access::Integer
         };
         let counts = arrays(&self.counts, self.integers.as_mut_ptr());
-        assert_eq!(unsafe { values::get_integer(self.entry, counts, whole) }, Status::Ok);
+        assert_eq!(unsafe { values::get_whole(self.entry, counts, whole) }, Status::Ok);
         let options = arrays(&self.options, self.longs.as_mut_ptr());
-        assert_eq!(unsafe { values::get_long(self.entry, options) }, Status::Ok);
+        assert_eq!(unsafe { values::get_whole(self.entry, options, Access::Long) }, Status::Ok);
     }
 
     fn step(&self, current: f64, step: f64) -> Status {

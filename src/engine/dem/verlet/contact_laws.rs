@@ -354,8 +354,10 @@ mod tests {
                 radius_sum: V::splat(simd, 0.0),
                 lever: V::splat(simd, 1.0),
             };
-            let mut springs = EightSprings::default();
-            springs.direction_x = [1.0; 8];
+            let mut springs = EightSprings {
+                direction_x: [1.0; 8],
+                ..EightSprings::default()
+            };
             let mut sums = LaneSums::new(simd);
             let forces = laws.forces::<true>(approach, surfaces, (&mut springs, 0), &mut sums, AtRest);
             assert!((0..V::LEN).all(|k| forces.normal[k] == forces.normal[0]));

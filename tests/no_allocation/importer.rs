@@ -151,7 +151,10 @@ impl Importer {
         let counts = arrays(&self.counts, self.integers.as_mut_ptr());
         assert_eq!(unsafe { values::get_whole(self.entry, counts, whole) }, Status::Ok);
         let options = arrays(&self.options, self.longs.as_mut_ptr());
-        assert_eq!(unsafe { values::get_whole(self.entry, options, Access::Long) }, Status::Ok);
+        assert_eq!(
+            unsafe { values::get_whole(self.entry, options, Access::Long) },
+            Status::Ok
+        );
     }
 
     fn step(&self, current: f64, step: f64) -> Status {

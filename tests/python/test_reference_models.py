@@ -1,4 +1,4 @@
-"""Structs with `#[derive(Component)]` become valid FMUs of both versions: the first one of the README of `fmi-component`,
+"""Structs with `#[derive(Component)]` become valid FMUs of both versions: the first one of the README of fmi-component,
 and the models of the Reference FMUs, which compute what the Modelica Association publishes."""
 
 import csv

@@ -26,7 +26,7 @@ Made with {tools}."""
 OTHERS = ("C library", "command line")
 """What is no library of an FMU."""
 SYSTEMS_HEAD = """## Other systems
-The same script builds these; that for macOS has not been tried. `scripts/release --check` runs those for Windows by
+The same script builds these; what it links for macOS was never run. `scripts/release --check` runs those for Windows by
 wine and those for Linux on 64-bit Arm by qemu. Those for macOS cannot be run here. FMI 2.0 has no folder for 64-bit
 Arm."""
 

@@ -1,18 +1,18 @@
-//! Dahlquist's equation x' = -k x, solved exactly: `cargo build --release -p fmi-component --example dahlquist`.
+//! Dahlquist's equation x' = -k x, solved exactly: `cargo build --release -p fmi-component --example decay`.
 #![allow(unsafe_code)] // the exported C functions; each is checked in `fmi_component::c_api`
 
 use fmi_component::{Model, ModelInfo, Result, Row, StructuralParameters, Unit, Values};
 
-fmi_component::export_fmu!(crate::Dahlquist);
+fmi_component::export_fmu!(crate::Decay);
 
 /// Time \[s\], k \[1/s\], x: the model is its state.
-pub struct Dahlquist([f64; 3]);
+pub struct Decay([f64; 3]);
 
-impl Model for Dahlquist {
+impl Model for Decay {
     type State = [f64; 3];
 
     fn info() -> ModelInfo {
-        ModelInfo::new("dahlquist", env!("CARGO_PKG_VERSION"), "Exponential decay")
+        ModelInfo::new("decay", env!("CARGO_PKG_VERSION"), "Exponential decay")
     }
     fn variables(_: &StructuralParameters) -> Vec<Row<Self>> {
         let rate = Row::parameter("k", Unit::HERTZ, 0.0..=1e3, 1.0, "Rate of the decay.");

@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+import tomllib
 from functools import cache
 from pathlib import Path
 
@@ -39,15 +40,21 @@ def test_every_test_that_the_page_of_importers_names_exists() -> None:
 
 
 def rust_files(folder: Path, kind: str) -> set[str]:
-    """Names of the tests, benches or examples of a package."""
+    """Names of the tests, benches or examples of a package: files, and what its manifest names."""
+    manifest = tomllib.loads((folder / "Cargo.toml").read_text())
+    stated = {
+        target["name"]
+        for target in manifest.get({"tests": "test", "benches": "bench", "examples": "example"}[kind], [])
+    }
     found = [*folder.glob(f"{kind}/*.rs"), *folder.glob(f"{kind}/*/main.rs")]
-    return {path.parent.name if path.name == "main.rs" else path.stem for path in found}
+    return stated | {path.parent.name if path.name == "main.rs" else path.stem for path in found}
 
 
 @pytest.mark.parametrize("kind", ["test", "bench", "example"])
 def test_every_cargo_target_that_a_page_names_exists_in_the_package_that_it_names(kind: str) -> None:
     plural = {"test": "tests", "bench": "benches", "example": "examples"}[kind]
     folders = {"": ROOT, "jostle-c": ROOT / "capi"} | {path.name: path for path in ROOT.glob("crates/*")}
+    folders["reference-models"] = ROOT / "crates/fmi-component/examples/reference_models"
     found = [
         (page, command)
         for page, text in EVERYTHING.items()
@@ -69,7 +76,12 @@ def test_every_script_that_a_page_names_exists() -> None:
 
 
 def test_every_package_that_a_page_builds_exists() -> None:
-    manifests = [*ROOT.glob("crates/*/Cargo.toml"), *ROOT.glob("fmu/*/Cargo.toml"), ROOT / "capi/Cargo.toml"]
+    manifests = [
+        *ROOT.glob("crates/*/Cargo.toml"),
+        *ROOT.glob("crates/*/examples/*/Cargo.toml"),
+        *ROOT.glob("fmu/*/Cargo.toml"),
+        ROOT / "capi/Cargo.toml",
+    ]
     packages = {re.findall(r'^name = "(.+)"', path.read_text(), re.MULTILINE)[0] for path in manifests}
     built = named(r"cargo [a-z]+[^`\n|]* -p ([a-z-]+)")
     assert "jostle-cli" in built

@@ -1,4 +1,4 @@
-//! A shaker laboratory as components: what moves the box of P (the thesis of Peraza Mues), what measures it, what controls it.
+//! A shaker laboratory as components: what moves the box of P (chapter 2), what measures it, what controls it.
 //!
 //! ```text
 //! gamma_controller -> voltage -> loudspeaker -> motion of the base -> grains (another component) -> force -> loudspeaker

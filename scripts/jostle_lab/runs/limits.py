@@ -39,7 +39,7 @@ def of_program(program: Path) -> Parameters:
         found = {}
         for line in table.splitlines()[1:]:
             name, causality, _, allowed, *_ = re.split(r"\s{2,}", line.strip())
-            if causality in {"parameter", "input"}:
+            if causality in {"parameter", "tunable parameter", "input"}:
                 found[name] = _range(allowed)
         return found
 

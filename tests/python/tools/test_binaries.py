@@ -20,8 +20,10 @@ WORDS = {
 SHIPPED = sorted((ROOT / "build" / "release" / "x86_64-linux").glob("libjostle_*.so"))
 
 
-def test_every_scene_has_its_library():
-    assert {library.stem for library in LIBRARIES} == {f"lib{name}" for name in (*scenes(), "jostle_c")}
+def test_every_scene_and_every_component_of_the_laboratory_has_its_library():
+    laboratory = ("loudspeaker", "accelerometer", "spectral_amplitude", "camera", "gamma_controller")
+    names = (*scenes(), "jostle_c", *(f"jostle_{name}" for name in laboratory))
+    assert {library.stem for library in LIBRARIES} == {f"lib{name}" for name in names}
 
 
 @pytest.mark.parametrize("library", LIBRARIES, ids=lambda path: path.stem)

@@ -48,7 +48,8 @@ pub use info::SceneInfo;
 pub use recipe::Recipe;
 
 /// All scenes. The first engine of a scene is its default, and the first drive of an engine.
-pub const MODELS: &[ModelType] = &[
+// A constant would compile all of them once more in each crate that names it.
+pub static MODELS: &[ModelType] = &[
     ModelType::of::<packing::PackingOnInput>(),
     ModelType::of::<packing::PackingOnSine>(),
     ModelType::of::<packing::PackingOnFixedBottom>(),

@@ -32,7 +32,7 @@ pub use spectral_amplitude::SpectralAmplitude;
 use fmi_component::{Export, ModelType};
 
 /// All models; the library of `loudspeaker` is `jostle_loudspeaker`.
-pub const ALL: [ModelType; 5] = [
+pub static ALL: [ModelType; 5] = [
     model::<Accelerometer>(),
     model::<Camera>(),
     model::<GammaController>(),

@@ -23,7 +23,7 @@ pub use van_der_pol::VanDerPol;
 use fmi_component::{Export, ModelType};
 
 /// All models, each with the name of the library that exports it.
-pub const ALL: [(&str, ModelType); 7] = [
+pub static ALL: [(&str, ModelType); 7] = [
     ("bouncing_ball", model::<BouncingBall>()),
     ("dahlquist", model::<Dahlquist>()),
     ("feedthrough", model::<Feedthrough>()),

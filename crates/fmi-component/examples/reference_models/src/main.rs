@@ -23,8 +23,8 @@ fn main() -> ExitCode {
 fn write_all(folder: &Path) -> Result<()> {
     let beside = std::env::current_exe().map(|program| program.with_file_name("examples"));
     let beside = beside.unwrap_or_else(|_| PathBuf::from("examples"));
-    for (name, model) in reference_models::ALL {
-        let mut component = Component::new(&model, &[])?;
+    for (name, model) in &reference_models::ALL {
+        let mut component = Component::new(model, &[])?;
         let libraries = Libraries::from_file(&find_library(name, &[&beside])?)?;
         for (version, suffix) in [(Version::Two, "fmi2"), (Version::Three, "fmi3")] {
             let file = format!("{}.{suffix}.fmu", component.info().identifier);

@@ -84,7 +84,7 @@ fn elements_and_parameters_that_do_not_fit_are_refused_by_their_names() {
     let message = refusal(|system| system.elements[1].name = "upper");
     assert!(message.contains("two elements are called upper"), "{message}");
     for (name, value, said) in [
-        ("spring.stiffness", -1.0, "spring.stiffness = -1 is not allowed"),
+        ("spring.stiffness", -1.0, "spring.stiffness = -1 N/m is not allowed"),
         (
             "frame.reaction_force",
             1.0,

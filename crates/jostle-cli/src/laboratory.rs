@@ -7,7 +7,10 @@ use crate::selection::Selection;
 
 /// The component of this name.
 pub fn find(name: &str) -> Option<ModelType> {
-    shaker_lab::ALL.iter().copied().find(|model| (model.info)().name == name)
+    shaker_lab::ALL
+        .iter()
+        .copied()
+        .find(|model| (model.info)().name == name)
 }
 
 /// All components as a text for the help.

@@ -188,12 +188,7 @@ impl<C: Listed> Clone for ContactList<C> {
 impl<C: Listed> ContactList<C> {
     /// One by one.
     pub fn iter(&self) -> impl Iterator<Item = C> {
-        let all = self
-            .eights
-            .iter()
-            .flat_map(|eight| (0..MOST_LANES).map(move |k| (eight, k)));
-        all.take(self.count)
-            .map(|(eight, k)| C::new(eight.bodies[k], eight.length[k], eight.springs.get(k)))
+        (0..self.count).map(|k| self.get(k))
     }
 
     /// Changes what they remember, one by one.
@@ -226,6 +221,37 @@ impl<C: Listed> ContactList<C> {
             count: self.count,
             eights: &mut self.eights,
         }
+    }
+
+    /// Keeps those that are `wanted`, in their order, without allocating.
+    pub fn retain(&mut self, wanted: impl Fn(&C) -> bool) {
+        let mut kept = 0;
+        for k in 0..self.count {
+            let contact = self.get(k);
+            if wanted(&contact) {
+                self.put(kept, contact.key(), contact.length(), contact.spring());
+                kept += 1;
+            }
+        }
+        self.count = kept;
+        self.eights.truncate(kept.div_ceil(MOST_LANES));
+        if let Some(last) = kept.checked_sub(1) {
+            let bodies = self.get(last).key();
+            for k in kept..self.eights.len() * MOST_LANES {
+                self.put(k, bodies, C::LENGTH_OF_NONE, SpringMemory::OPEN);
+            }
+        }
+    }
+
+    fn get(&self, k: usize) -> C {
+        let (eight, k) = (&self.eights[k / MOST_LANES], k % MOST_LANES);
+        C::new(eight.bodies[k], eight.length[k], eight.springs.get(k))
+    }
+
+    fn put(&mut self, k: usize, bodies: [u32; 2], length: f64, spring: SpringMemory) {
+        let (eight, k) = (&mut self.eights[k / MOST_LANES], k % MOST_LANES);
+        (eight.bodies[k], eight.length[k]) = (bodies, length);
+        eight.springs.set(k, spring);
     }
 
     /// Replaces them by these bodies and lengths, which are sorted as they are; closed contacts keep their memory.
@@ -296,5 +322,32 @@ impl<C: Listed> From<Vec<C>> for ContactList<C> {
 impl<C: Listed> From<ContactList<C>> for Vec<C> {
     fn from(list: ContactList<C>) -> Self {
         list.iter().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pair(first: u32) -> Pair {
+        let spring = SpringMemory {
+            direction: [1.0, 0.0],
+            reference: f64::from(first),
+            stretch: 0.5,
+        };
+        Pair::new([first, first + 1], 0.1 * f64::from(first), spring)
+    }
+
+    #[test]
+    fn what_is_kept_is_the_list_of_what_is_wanted() {
+        for count in 0..20 {
+            let all: Vec<Pair> = (0..count).map(pair).collect();
+            for divisor in 1..4 {
+                let mut list = ContactList::from(all.clone());
+                list.retain(|pair| pair.first % divisor == 0);
+                let wanted = all.iter().copied().filter(|pair| pair.first % divisor == 0);
+                assert_eq!(list, wanted.collect::<Vec<_>>().into(), "{count} pairs, {divisor}");
+            }
+        }
     }
 }

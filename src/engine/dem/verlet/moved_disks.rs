@@ -4,8 +4,7 @@ use crate::contact::NormalForce;
 use crate::drive::Drive;
 use crate::engine::dem::fixed_grid::GridState;
 
-use super::contact_list::{ContactList, Listed};
-use super::{Disks, Integrator, Pair, PredictorCorrector, WallContact};
+use super::{Disks, Integrator, PredictorCorrector};
 
 impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
     /// Puts them where the drive has them at `time` \[s\], in place of what was predicted.
@@ -33,10 +32,8 @@ impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
             return;
         }
         let is_free = |disk: u32| self.constants.setup.masses[disk as usize] != 0.0;
-        keep(&mut disks.pairs, |pair: &Pair| {
-            is_free(pair.first) || is_free(pair.second)
-        });
-        keep(&mut disks.wall_contacts, |contact: &WallContact| is_free(contact.disk));
+        disks.pairs.retain(|pair| is_free(pair.first) || is_free(pair.second));
+        disks.wall_contacts.retain(|contact| is_free(contact.disk));
     }
 
     /// Hands the forces on them to the floor, and counts the work that they do on the other disks in a step of `duration` \[s\]
@@ -67,11 +64,5 @@ impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
         disks.base_force += floor[1];
         *energy_input += 0.5 * duration * (disks.moved_power + power);
         disks.moved_power = power;
-    }
-}
-
-fn keep<C: Listed>(list: &mut ContactList<C>, wanted: impl Fn(&C) -> bool) {
-    if !list.iter().all(|contact| wanted(&contact)) {
-        *list = list.iter().filter(wanted).collect::<Vec<C>>().into();
     }
 }

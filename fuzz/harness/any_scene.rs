@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use fmi_component::{DynSimulation, ModelInfo, ModelType, StructuralParameter, StructuralParameters, Variable};
 use jostle::scene::catalogue::MODELS;
 
-fmi_component::export_fmu!(dyn super::ANY_SCENE);
+fmi_component::export_fmu!(dyn &super::ANY_SCENE);
 
 pub use fmi_component::c_api::{Boolean, CallbackFunctions, Fmi2Log, IntermediateUpdate, Opaque, Status};
 
@@ -43,7 +43,7 @@ fn info() -> ModelInfo {
 
 /// The scene and its own structural parameters.
 fn chosen(structure: &StructuralParameters) -> (&'static ModelType, StructuralParameters) {
-    let model = &MODELS[structure.get("scene") as usize];
+    let model = MODELS[structure.get("scene") as usize];
     let info = (model.info)();
     let disks = structure.get("disks").min(*info.structure[0].range.end());
     match StructuralParameters::choose(&info, &[("disks", disks)]) {

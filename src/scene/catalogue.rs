@@ -49,7 +49,7 @@ pub fn find(scene: &str, engine: Option<&str>, drive: Option<&str>) -> Result<&'
     let drive = drive.unwrap_or(first.drive);
     let wanted = |names: &Names| (names.scene, names.engine, names.drive) == (scene, engine, drive);
     match names.iter().position(wanted) {
-        Some(index) => Ok(&MODELS[index]),
+        Some(index) => Ok(MODELS[index]),
         None => Err(unknown("drive", drive, of_engine.iter().map(|names| names.drive))),
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Each scene is a [`Model`]. A Rust program runs a [`Simulation`] of it, or an [`AnySimulation`] if the scene is chosen by name
 //! at run time. No other part of this crate knows the crate `fmi_component`. A new scene, and a scene on a new drive, is one line
-//! in [`MODELS`].
+//! in [`models`].
 
 mod any_simulation;
 pub mod base_drive;
@@ -26,6 +26,7 @@ pub mod laws {
 
     mod linear_dashpot;
 }
+pub mod models;
 pub mod packing;
 mod random_phase_base;
 pub mod ratchet;
@@ -44,32 +45,9 @@ pub use fmi_component::{
     StructuralParameters, Symbol, TIME, Table, Unit, Value, Values, Variable, Warning,
 };
 pub use info::SceneInfo;
+pub use models::MODELS;
 #[cfg(feature = "toml")]
 pub use recipe::Recipe;
-
-/// All scenes. The first engine of a scene is its default, and the first drive of an engine.
-// A constant would compile all of them once more in each crate that names it.
-pub static MODELS: &[ModelType] = &[
-    ModelType::of::<packing::PackingOnInput>(),
-    ModelType::of::<packing::PackingOnSine>(),
-    ModelType::of::<packing::PackingOnFixedBottom>(),
-    ModelType::of::<packing::PackingOnRandomBottom>(),
-    ModelType::of::<packing::LocatedPackingOnInput>(),
-    ModelType::of::<packing::LocatedPackingOnSine>(),
-    ModelType::of::<packing::event_driven::HardPackingOnInput>(),
-    ModelType::of::<packing::event_driven::HardPackingOnSine>(),
-    ModelType::of::<wedge::WedgeMap>(),
-    ModelType::of::<wedge::WedgeEventDrivenOnInput>(),
-    ModelType::of::<wedge::WedgeEventDrivenOnSine>(),
-    ModelType::of::<wedge::WedgeMolecularDynamicsOnInput>(),
-    ModelType::of::<wedge::WedgeMolecularDynamicsOnSine>(),
-    ModelType::of::<ratchet::RatchetOnInput>(),
-    ModelType::of::<ratchet::RatchetOnSine>(),
-    ModelType::of::<disk_on_two_supports::DiskOnTwoSupportsOnInput>(),
-    ModelType::of::<disk_on_two_supports::DiskOnTwoSupportsOnHarmonicTorque>(),
-    ModelType::of::<disk_on_two_supports::DiskOnTwoSupportsOnRandomSupports>(),
-    ModelType::of::<disk_on_two_supports::DiskOnTwoSupportsOnSine>(),
-];
 
 impl From<crate::error::Error> for Error {
     fn from(refused: crate::error::Error) -> Self {

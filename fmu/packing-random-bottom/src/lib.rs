@@ -1,4 +1,4 @@
 //! FMU of the packing whose bottom row of disks vibrates randomly.
 #![allow(unsafe_code)] // the exported C functions; each is checked in `fmi_component::c_api`
 
-fmi_component::export_fmu!(jostle::scene::packing::PackingOnRandomBottom);
+fmi_component::export_fmu!(dyn &jostle::scene::models::PACKING_RANDOM_BOTTOM);

@@ -1,4 +1,4 @@
 //! FMU of the granular ratchet whose base moves as a sine.
 #![allow(unsafe_code)] // the exported C functions; each is checked in `fmi_component::c_api`
 
-fmi_component::export_fmu!(jostle::scene::ratchet::RatchetOnSine);
+fmi_component::export_fmu!(dyn &jostle::scene::models::RATCHET_SINE);

@@ -1,4 +1,4 @@
 //! FMU of the granular ratchet whose base follows the importer's inputs.
 #![allow(unsafe_code)] // the exported C functions; each is checked in `fmi_component::c_api`
 
-fmi_component::export_fmu!(jostle::scene::ratchet::RatchetOnInput);
+fmi_component::export_fmu!(dyn &jostle::scene::models::RATCHET);

@@ -1,4 +1,4 @@
 //! FMU of the disk on two supports under an input torque.
 #![allow(unsafe_code)] // the exported C functions; each is checked in `fmi_component::c_api`
 
-fmi_component::export_fmu!(jostle::scene::disk_on_two_supports::DiskOnTwoSupportsOnInput);
+fmi_component::export_fmu!(dyn &jostle::scene::models::THREE_DISK);

@@ -1,4 +1,4 @@
 //! FMU of the disk in a wedge by the map of its impacts.
 #![allow(unsafe_code)] // the exported C functions; each is checked in `fmi_component::c_api`
 
-fmi_component::export_fmu!(jostle::scene::wedge::WedgeMap);
+fmi_component::export_fmu!(dyn &jostle::scene::models::WEDGE_MAP);

@@ -3,8 +3,8 @@
 /// Exports a [`Model`](crate::Model) or a struct with [`#[derive(Component)]`](derive@crate::Component) as the 44 functions of FMI 2.0 and the 75 of FMI 3.0.
 ///
 /// Use it once in a crate of type `cdylib`. The functions are in the modules `fmi2` and `fmi3` of that crate, too. All but the
-/// making of an instance call functions of this crate that are the same for every model. A constant of type
-/// [`ModelType`](crate::ModelType) is exported by `export_fmu!(dyn NAME)`.
+/// making of an instance call functions of this crate that are the same for every model. A static of type
+/// [`ModelType`](crate::ModelType) is exported by `export_fmu!(dyn &NAME)`: a model of another crate is then compiled there alone.
 #[macro_export]
 macro_rules! export_fmu {
     (dyn $model:expr) => {
@@ -12,7 +12,7 @@ macro_rules! export_fmu {
         $crate::export_fmi3!($model);
     };
     ($model:ty) => {
-        $crate::export_fmu!(dyn $crate::ModelType::of::<<$model as $crate::Export>::Model>());
+        $crate::export_fmu!(dyn &$crate::ModelType::of::<<$model as $crate::Export>::Model>());
     };
 }
 

@@ -21,7 +21,7 @@ macro_rules! export_fmi2 {
             use $crate::instance::Access::AnyInteger;
             use $crate::life_cycle::Version::Two;
 
-            static MODEL: $crate::ModelType = $model;
+            static MODEL: &$crate::ModelType = $model;
 
             $crate::__fmi_functions! {
                 fn fmi2GetTypesPlatform() -> *const c_char = c"default".as_ptr();
@@ -29,7 +29,7 @@ macro_rules! export_fmi2 {
                 fn fmi2Instantiate(
                     name: *const c_char, kind: c_int, guid: *const c_char, fmu_resource_location: *const c_char,
                     functions: *const CallbackFunctions, visible: c_int, logging_on: c_int,
-                ) -> Opaque = fmi2::instantiate(&MODEL, name, kind, guid, functions, logging_on);
+                ) -> Opaque = fmi2::instantiate(MODEL, name, kind, guid, functions, logging_on);
                 fn fmi2FreeInstance(pointer: Opaque) = free(pointer, Two);
             }
 

@@ -24,7 +24,7 @@ macro_rules! export_fmi3 {
             use $crate::instance::Access;
             use $crate::life_cycle::Version::Three;
 
-            static MODEL: $crate::ModelType = $model;
+            static MODEL: &$crate::ModelType = $model;
 
             $crate::__fmi_functions! {
                 fn fmi3GetVersion() -> *const c_char = c"3.0".as_ptr();
@@ -38,7 +38,7 @@ macro_rules! export_fmi3 {
                     required_intermediate_variables: *const u32, required_count: usize, environment: Opaque,
                     log: Option<Fmi3Log>, intermediate_update: Option<IntermediateUpdate>,
                 ) -> Opaque =
-                    fmi3::instantiate(&MODEL, Instantiation {
+                    fmi3::instantiate(MODEL, Instantiation {
                         name, token, logging_on, event_mode_used, early_return_allowed,
                         required_intermediate_variables, required_count, environment, log, intermediate_update,
                     });

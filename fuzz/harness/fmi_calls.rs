@@ -187,7 +187,14 @@ table! {
     fmi3ActivateModelPartition(Instance, Reference, Real);
 }
 
+/// Makes the calls that `bytes` ask for.
+#[allow(dead_code)] // what goes on at the end calls `run_and`
 pub fn run(bytes: &[u8]) {
+    run_and(bytes, |_, _| {});
+}
+
+/// As [`run`], and what `end` does with the instances as they are then; it is told how many variables there are at most.
+pub fn run_and(bytes: &[u8], end: fn(&mut Importer, u32)) {
     static SUBJECT: LazyLock<Subject> = LazyLock::new(|| {
         let (tokens, variables) = tokens();
         Subject::new(&tokens, variables)
@@ -203,6 +210,7 @@ pub fn run(bytes: &[u8]) {
             None => TABLE[index * TABLE.len() / 256](&mut importer),
         }
     }
+    end(&mut importer, SUBJECT.variables);
     for slot in std::mem::take(&mut importer.slots) {
         release(&slot, slot.three.get());
         slot.drop_callbacks();

@@ -17,6 +17,8 @@ thread_local! {
 }
 
 static CALLS: AtomicU64 = AtomicU64::new(0);
+/// Those among them that callbacks made.
+static INSIDE: AtomicU64 = AtomicU64::new(0);
 static STEPS: AtomicU64 = AtomicU64::new(0);
 
 /// Counts a call into the library under test and says how many there were, now and then.
@@ -27,9 +29,22 @@ pub fn count() {
     }
 }
 
+/// Counts a call that a callback makes.
+pub fn count_inside() {
+    INSIDE.fetch_add(1, Ordering::Relaxed);
+    count();
+}
+
 /// Counts a step forward in time that was done, among the calls.
 pub fn count_step(done: bool) {
     STEPS.fetch_add(u64::from(done), Ordering::Relaxed);
+}
+
+/// Calls until now, those that callbacks made, and steps forward in time that were done.
+#[allow(dead_code)] // the fuzzer's log says what it needs
+pub fn counted() -> [u64; 3] {
+    let [all, inside, steps] = [&CALLS, &INSIDE, &STEPS].map(|count| count.load(Ordering::Relaxed));
+    [all - inside, inside, steps]
 }
 
 /// Panics that a model was set to do are not reported; any other ends the process, though the boundary catches it.

@@ -34,7 +34,7 @@ pub const LIVES: &[Call] = &[
 
 /// From inside a callback.
 pub unsafe fn call_back(slot: &Slot) -> Status {
-    count();
+    count_inside();
     // SAFETY: the instance is alive, since it calls.
     unsafe {
         if slot.three.get() {
@@ -54,7 +54,7 @@ pub unsafe fn observe_inside(slot: &Slot, time: f64) {
     let [event, terminate, early] = &mut flags;
     // SAFETY: the instance is alive, since it calls, and cannot be freed now; one reference, one value.
     unsafe {
-        count();
+        count_inside();
         let refused = match slot.draw(9) {
             0 => {
                 fmi3FreeInstance(pointer);

@@ -19,6 +19,7 @@ COMMANDS = (
     "tools.live_page:live_page",
     "tools.notebooks:notebooks",
     "tools.two_builds:two_builds",
+    "tools.misuse:misuse",
 )
 
 if __name__ == "__main__":

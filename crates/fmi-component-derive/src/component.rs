@@ -24,7 +24,7 @@ pub fn expand(input: &DeriveInput) -> Result<TokenStream> {
     let take = taken(&ordered, |field| field.role == Role::Input);
     let tune = taken(&ordered, |field| field.facts.fact("tunable").is_some());
     let saved = Saved::of(&fields);
-    let Saved { kept, save, load } = &saved;
+    let Saved { kept, save, keep, load } = &saved;
     Ok(quote! {
         const _: () = {
             #[derive(
@@ -63,6 +63,11 @@ pub fn expand(input: &DeriveInput) -> Result<TokenStream> {
                 }
 
                 fn save(&self) -> State { State { #(#save),* } }
+
+                fn save_over(&self, state: &mut State) {
+                    let _ = &state;
+                    #(#keep)*
+                }
 
                 fn load(&mut self, state: &State) -> ::fmi_component::Result<()> {
                     let _ = &state;
@@ -171,6 +176,8 @@ struct Saved {
     kept: Vec<TokenStream>,
     /// Their values from the component.
     save: Vec<TokenStream>,
+    /// Statements that put them over those of a state.
+    keep: Vec<TokenStream>,
     /// Statements that bring them back.
     load: Vec<TokenStream>,
 }
@@ -180,6 +187,7 @@ impl Saved {
         let mut saved = Self {
             kept: Vec::new(),
             save: Vec::new(),
+            keep: Vec::new(),
             load: Vec::new(),
         };
         for field in fields.iter().filter(|field| field.facts.fact("skip").is_none()) {
@@ -192,25 +200,29 @@ impl Saved {
     fn add(&mut self, field: &Field) {
         let (ident, of) = (&field.ident, &field.of);
         let dimensions = field.shape.as_ref().map_or(0, |shape| shape.dimensions.len());
-        let (of, save, load) = match dimensions {
+        let (of, save, keep, load) = match dimensions {
             0 => (
                 quote! { #of },
                 quote! { ::core::clone::Clone::clone(&self.#ident) },
+                quote! { ::core::clone::Clone::clone_from(&mut state.#ident, &self.#ident); },
                 quote! { ::core::clone::Clone::clone_from(&mut self.#ident, &state.#ident); },
             ),
             1 => (
                 quote! { ::std::vec::Vec<f64> },
                 quote! { self.#ident.to_vec() },
+                quote! { ::fmi_component::derived::keep(&self.#ident[..], &mut state.#ident); },
                 quote! { ::fmi_component::derived::copy(&state.#ident, &mut self.#ident[..])?; },
             ),
             _ => (
                 quote! { ::std::vec::Vec<f64> },
                 quote! { self.#ident.as_flattened().to_vec() },
+                quote! { ::fmi_component::derived::keep(self.#ident.as_flattened(), &mut state.#ident); },
                 quote! { ::fmi_component::derived::copy(&state.#ident, self.#ident.as_flattened_mut())?; },
             ),
         };
         self.kept.push(quote! { #ident: #of });
         self.save.push(quote! { #ident: #save });
+        self.keep.push(keep);
         self.load.push(load);
     }
 }

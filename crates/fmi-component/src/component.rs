@@ -96,6 +96,9 @@ pub trait Component: Sized + Send + 'static {
     /// A copy of all fields.
     fn save(&self) -> Self::State;
 
+    /// Puts a copy of all fields in the place of `state`, whose memory serves again.
+    fn save_over(&self, state: &mut Self::State);
+
     /// Goes to a saved state.
     ///
     /// # Errors
@@ -153,30 +156,59 @@ pub trait CoSimulation: Component {
 }
 
 /// The [`Model`] of a component: it with its time.
-#[derive(Debug)]
-pub struct ComponentModel<C> {
+pub struct ComponentModel<C: Component> {
     component: C,
+    /// Fields as they were before the last change that could be refused: memory for the next.
+    before: Option<C::State>,
     start: f64,
     time: f64,
     name: &'static str,
     most_points: u64,
 }
 
-impl<C> ComponentModel<C> {
+impl<C: Component + std::fmt::Debug> std::fmt::Debug for ComponentModel<C> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut written = formatter.debug_struct("ComponentModel");
+        written
+            .field("component", &self.component)
+            .field("time", &self.time)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<C: Component> ComponentModel<C> {
     /// The component as it is now.
     pub fn component(&self) -> &C {
         &self.component
+    }
+
+    /// Keeps the fields as they are, for [`ComponentModel::go_back`].
+    #[inline]
+    fn keep(&mut self) {
+        match &mut self.before {
+            Some(before) => self.component.save_over(before),
+            None => self.before = Some(self.component.save()),
+        }
+    }
+
+    /// The fields are as [`ComponentModel::keep`] kept them.
+    #[cold]
+    fn go_back(&mut self) -> Result<()> {
+        match &self.before {
+            Some(before) => self.component.load(before),
+            None => Ok(()),
+        }
     }
 }
 
 impl<C: CoSimulation> ComponentModel<C> {
     /// A step to `end`; the component is as before if it is refused.
     fn step(&mut self, end: f64, values: &Values, events: Events) -> Result<Reached> {
-        let before = self.component.save();
+        self.keep();
         self.component.take(&mut Given::new(values));
         let mut step = Step::new([self.start, self.time, end], self.name, self.most_points, events);
         if let Err(refused) = self.component.do_step(&mut step) {
-            self.component.load(&before)?;
+            self.go_back()?;
             return Err(refused);
         }
         let event = step.event();
@@ -207,6 +239,7 @@ impl<C: CoSimulation> Model for ComponentModel<C> {
         component.initialize(start_time)?;
         Ok(Self {
             component,
+            before: None,
             start: start_time,
             time: start_time,
             name: C::info().name,
@@ -215,10 +248,10 @@ impl<C: CoSimulation> Model for ComponentModel<C> {
     }
 
     fn tune(&mut self, values: &Values) -> Result<()> {
-        let before = self.component.save();
+        self.keep();
         self.component.tune(&mut Given::new(values));
         if let Err(refused) = self.component.tuned() {
-            self.component.load(&before)?;
+            self.go_back()?;
             return Err(refused);
         }
         Ok(())
@@ -246,14 +279,19 @@ impl<C: CoSimulation> Model for ComponentModel<C> {
         (self.time, self.component.save())
     }
 
+    fn state_over(&self, state: &mut Self::State) {
+        state.0 = self.time;
+        self.component.save_over(&mut state.1);
+    }
+
     fn time_of(state: &Self::State) -> f64 {
         state.0
     }
 
     fn restore(&mut self, state: &Self::State) -> Result<()> {
-        let before = self.component.save();
+        self.keep();
         if let Err(refused) = self.component.load(&state.1) {
-            self.component.load(&before)?;
+            self.go_back()?;
             return Err(refused);
         }
         self.time = state.0;

@@ -148,6 +148,14 @@ pub fn derive<M>(rows: &mut [Row<M>], derivative: &str) {
     }
 }
 
+/// Puts the elements of an array in the place of those that were saved before.
+pub fn keep(array: &[f64], saved: &mut Vec<f64>) {
+    match saved.len() == array.len() {
+        true => saved.copy_from_slice(array),
+        false => *saved = array.to_vec(),
+    }
+}
+
 /// Copies the saved elements of an array.
 ///
 /// # Errors
@@ -194,8 +202,13 @@ impl<'values> Given<'values> {
     }
 
     pub fn reals(&mut self, out: &mut [f64]) {
-        for value in out {
-            *value = self.real();
+        let first = self.position;
+        self.position += out.len();
+        let Some(values) = self.values.as_slice().get(first..self.position) else {
+            panic!("the table has no parameter or input number {}", self.position);
+        };
+        for (real, value) in out.iter_mut().zip(values) {
+            *real = value.to_f64();
         }
     }
 

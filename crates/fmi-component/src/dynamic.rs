@@ -51,14 +51,17 @@ impl ModelType {
 /// A saved state of a [`DynSimulation`].
 pub struct DynSaved {
     started: bool,
+    /// Simulation that has saved it, or read it from bytes and checked it.
+    checked_by: u64,
     /// A [`Saved`].
     saved: Box<dyn Any + Send>,
 }
 
 impl DynSaved {
-    fn of<State: Send + 'static>(saved: Saved<State>) -> Self {
+    fn of<State: Send + 'static>(saved: Saved<State>, checked_by: u64) -> Self {
         Self {
             started: saved.is_started(),
+            checked_by,
             saved: Box::new(saved),
         }
     }
@@ -85,6 +88,8 @@ pub trait DynSimulation: Send {
     fn position(&self, name: &str) -> Result<usize>;
     fn set_at(&mut self, position: usize, value: Value) -> Result<()>;
     fn set_bytes_at(&mut self, position: usize, bytes: &[u8]) -> Result<()>;
+    /// Sets inputs from position `first` on, all of them reals of 64 bits, to values that were checked.
+    fn set_signals(&mut self, first: usize, reals: &[f64]);
     fn value(&self, position: usize) -> Result<Value>;
     fn bytes(&self, position: usize) -> Result<&[u8]>;
     fn read_reals(&self, first: usize, out: &mut [f64]) -> Result<()>;
@@ -102,6 +107,7 @@ pub trait DynSimulation: Send {
     fn limit_work(&mut self, most: u64);
     fn warnings(&self, told: &[&'static str]) -> Vec<Warning>;
     fn save(&self) -> DynSaved;
+    fn save_over(&self, saved: &mut DynSaved);
     fn restore(&mut self, saved: &DynSaved) -> Result<()>;
     fn restore_anew(&mut self, saved: &DynSaved) -> Result<()>;
     /// The saved state as a value that can be serialised: payload for an owner who adds more to it.
@@ -140,6 +146,10 @@ impl<M: Model> DynSimulation for Simulation<M> {
 
     fn set_bytes_at(&mut self, position: usize, bytes: &[u8]) -> Result<()> {
         self.set_bytes_at(position, bytes)
+    }
+
+    fn set_signals(&mut self, first: usize, reals: &[f64]) {
+        self.set_signals(first, reals);
     }
 
     fn value(&self, position: usize) -> Result<Value> {
@@ -207,11 +217,24 @@ impl<M: Model> DynSimulation for Simulation<M> {
     }
 
     fn save(&self) -> DynSaved {
-        DynSaved::of(self.save())
+        DynSaved::of(self.save(), self.id())
+    }
+
+    fn save_over(&self, saved: &mut DynSaved) {
+        match saved.saved.downcast_mut() {
+            Some(typed) => {
+                self.save_over(typed);
+                (saved.started, saved.checked_by) = (typed.is_started(), self.id());
+            }
+            None => *saved = DynSaved::of(self.save(), self.id()),
+        }
     }
 
     fn restore(&mut self, saved: &DynSaved) -> Result<()> {
-        self.restore(typed(saved)?)
+        match saved.checked_by == self.id() {
+            true => self.go_to(typed(saved)?),
+            false => self.restore(typed(saved)?),
+        }
     }
 
     fn restore_anew(&mut self, saved: &DynSaved) -> Result<()> {
@@ -225,7 +248,7 @@ impl<M: Model> DynSimulation for Simulation<M> {
     fn saved_from_payload(&self, payload: &[u8]) -> Result<DynSaved> {
         let saved: Saved<M::State> = saved_bytes::from_payload(payload)?;
         self.check(&saved)?;
-        Ok(DynSaved::of(saved))
+        Ok(DynSaved::of(saved, self.id()))
     }
 
     fn to_bytes(&self) -> Result<Vec<u8>> {

@@ -83,6 +83,7 @@ pub enum Call {
 }
 
 impl Call {
+    #[inline]
     const fn legal(self) -> &'static [Phase] {
         match self {
             Self::SetupExperiment | Self::EnterInitialization => &[Phase::Instantiated],
@@ -129,10 +130,16 @@ impl Call {
     ///
     /// # Errors
     /// [`Error::Call`] with the call, the phase and the phases that were expected.
+    #[inline]
     pub fn check(self, phase: Phase) -> Result<()> {
-        if self.legal().contains(&phase) {
-            return Ok(());
+        match self.legal().contains(&phase) {
+            true => Ok(()),
+            false => Err(self.refusal(phase)),
         }
+    }
+
+    #[cold]
+    fn refusal(self, phase: Phase) -> Error {
         let expected: Vec<_> = self.legal().iter().map(|phase| phase.name()).collect();
         let remedy = match phase {
             Phase::Failed => "Reset the instance, restore a saved state or free it.".into(),
@@ -141,13 +148,13 @@ impl Call {
             }
             _ => format!("It is legal in: {}.", expected.join(", ")),
         };
-        Err(Error::call(
+        Error::call(
             format!(
                 "{} is not allowed while the instance is in the phase {}",
                 self.name(),
                 phase.name()
             ),
             remedy,
-        ))
+        )
     }
 }

@@ -126,15 +126,21 @@ pub fn check_length(count: usize, expected: usize, name: &str) -> Result<()> {
     ))
 }
 
+#[inline]
 fn check<T>(pointer: *const T, count: usize, name: &str, remedy: &str) -> Result<()> {
-    let fault = if pointer.is_null() {
-        "is a null pointer"
-    } else if !pointer.is_aligned() {
-        "is not aligned for its type"
-    } else if count > isize::MAX as usize / size_of::<T>().max(1) {
-        "is longer than memory can be"
-    } else {
-        return Ok(());
+    let possible = count <= isize::MAX as usize / size_of::<T>().max(1);
+    match !pointer.is_null() && pointer.is_aligned() && possible {
+        true => Ok(()),
+        false => Err(fault(pointer.is_null(), pointer.is_aligned(), name, remedy)),
+    }
+}
+
+#[cold]
+fn fault(null: bool, aligned: bool, name: &str, remedy: &str) -> Error {
+    let fault = match (null, aligned) {
+        (true, _) => "is a null pointer",
+        (_, false) => "is not aligned for its type",
+        _ => "is longer than memory can be",
     };
-    Err(Error::call(format!("{name} {fault}"), remedy))
+    Error::call(format!("{name} {fault}"), remedy)
 }

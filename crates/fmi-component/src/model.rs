@@ -116,6 +116,12 @@ pub trait Model: Sized + Send + 'static {
     /// A copy of the present state.
     fn state(&self) -> Self::State;
 
+    /// Puts a copy of the present state in the place of `state`, an earlier one of this same model. Only a matter of speed: a model
+    /// whose states own memory may use it again.
+    fn state_over(&self, state: &mut Self::State) {
+        *state = self.state();
+    }
+
     /// Time of `state` \[s\]: the end of the last step, or the start.
     fn time_of(state: &Self::State) -> f64;
 

@@ -12,6 +12,7 @@ mod saving;
 mod tuning;
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::error::{Error, Result};
 use crate::model::{Model, Reached, Warning};
@@ -30,6 +31,8 @@ use tuning::Tuned;
 /// One run of a model.
 #[derive(Debug)]
 pub struct Simulation<M> {
+    /// Another for each simulation of the process.
+    id: u64,
     structure: StructuralParameters,
     /// How each computed variable is read, in the order of the table behind its settable ones.
     reads: Arc<[Read<M>]>,
@@ -82,6 +85,7 @@ impl<M: Model> Simulation<M> {
         let reads = rows.iter().filter_map(|row| row.read.clone()).collect();
         let table = Table::new(rows.into_iter().map(|Row { variable, .. }| variable).collect());
         Self {
+            id: next_id(),
             structure,
             reads,
             values: Values::new(Arc::new(table)),
@@ -163,6 +167,12 @@ impl<M: Model> Simulation<M> {
         self.values.set(position, value.into())?;
         self.retuned |= hold == Hold::Tunable;
         Ok(())
+    }
+
+    /// Sets inputs from position `first` on, all of them reals of 64 bits, to values that were checked.
+    #[inline]
+    pub(crate) fn set_signals(&mut self, first: usize, reals: &[f64]) {
+        self.values.set_signals(first, reals);
     }
 
     /// Whether the variable at `position` is a parameter of a model that has started, and of which sort.
@@ -271,6 +281,11 @@ impl<M: Model> Simulation<M> {
         if let Some(model) = &mut self.model {
             model.limit_work(most);
         }
+    }
+
+    /// Distinguishes it from all other simulations of the process.
+    pub(crate) fn id(&self) -> u64 {
+        self.id
     }
 
     /// Time reached \[s\].
@@ -420,6 +435,11 @@ impl<M: Model> Simulation<M> {
         }
         Ok(model)
     }
+}
+
+fn next_id() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(1);
+    NEXT.fetch_add(1, Ordering::Relaxed)
 }
 
 fn whole_number(name: &str) -> Error {

@@ -8,6 +8,7 @@ use crate::unit::Unit;
 pub const FARTHEST_TIME: f64 = 1e10;
 
 /// Whether models can be at `time` \[s\].
+#[inline]
 pub fn is_simulated(time: f64) -> bool {
     time.abs() <= FARTHEST_TIME
 }
@@ -16,16 +17,22 @@ pub fn is_simulated(time: f64) -> bool {
 ///
 /// # Errors
 /// It is; `name` says which time.
+#[inline]
 pub fn check_time(name: &str, time: f64) -> Result<()> {
-    if is_simulated(time) {
-        return Ok(());
+    match is_simulated(time) {
+        true => Ok(()),
+        false => Err(not_simulated(name, time)),
     }
-    Err(Error::parameter(
+}
+
+#[cold]
+fn not_simulated(name: &str, time: f64) -> Error {
+    Error::parameter(
         name,
         Unit::SECOND.format(time),
         format!("from -{FARTHEST_TIME:e} to {FARTHEST_TIME:e} s, where times are 2e-6 s apart in double precision"),
         "Count the time from nearer to the run.",
-    ))
+    )
 }
 
 /// Refuses a start time \[s\] as [`check_time`] does, and the farthest time itself: no step leads on from there.

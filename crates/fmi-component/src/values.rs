@@ -115,16 +115,29 @@ impl Values {
         }
     }
 
+    /// As [`Values::put_back`], for values of this same table that were checked.
+    pub(crate) fn take_over(&mut self, values: &[Value], bytes: &[Vec<u8>]) {
+        for ((own, value), variable) in self.values.iter_mut().zip(values).zip(self.table.settable()) {
+            *own = stored(&variable.kind, *value);
+        }
+        self.bytes.clone_from_slice(bytes);
+    }
+
+    /// Sets inputs from position `first` on, all of them reals of 64 bits, to values that were checked.
+    #[inline]
+    pub(crate) fn set_signals(&mut self, first: usize, reals: &[f64]) {
+        for (own, real) in self.values.iter_mut().skip(first).zip(reals) {
+            *own = Value::Real(real + 0.0); // as `stored` has it
+        }
+    }
+
     /// Puts back all values as [`Values::as_slice`] and [`Values::all_bytes`] gave them.
     ///
     /// # Errors
     /// Another number of values, another type, or out of range. Nothing is stored then.
     pub fn put_back(&mut self, values: &[Value], bytes: &[Vec<u8>]) -> Result<()> {
         self.check_all(values, bytes)?;
-        for ((own, value), variable) in self.values.iter_mut().zip(values).zip(self.table.settable()) {
-            *own = stored(&variable.kind, *value);
-        }
-        self.bytes.clone_from_slice(bytes);
+        self.take_over(values, bytes);
         Ok(())
     }
 

@@ -1,6 +1,7 @@
 //! The states that an importer holds, each under a number that looks like a pointer to it.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::types::Opaque;
@@ -10,7 +11,11 @@ use crate::instance::{Instance, Snapshot};
 /// Saved states of one instance by their number.
 #[derive(Default)]
 pub struct SavedStates {
-    states: HashMap<usize, Saved>,
+    states: BTreeMap<usize, Saved>,
+    /// The state that was forgotten last: memory for the next one.
+    spare: Option<Snapshot>,
+    /// Numbers that only this instance gives.
+    numbers: Range<usize>,
 }
 
 struct Saved {
@@ -19,14 +24,44 @@ struct Saved {
 }
 
 impl SavedStates {
-    /// Keeps a state under `previous`, if that is one of these, or under a new number.
-    pub fn keep(&mut self, snapshot: Snapshot, previous: Opaque) -> Opaque {
-        let number = match previous.addr() {
-            known if self.states.contains_key(&known) => known,
-            _ => next_number(),
+    /// Saves the state of `instance` under `previous`, if that is one of these, or under a new number.
+    ///
+    /// # Errors
+    /// As [`Instance::save`]; all is as before then.
+    pub fn save(&mut self, instance: &Instance, previous: Opaque) -> Result<Opaque> {
+        if let Some(saved) = self.states.get_mut(&previous.addr()) {
+            instance.save_over(&mut saved.snapshot)?;
+            saved.bytes = None;
+            return Ok(previous);
+        }
+        if let Some(spare) = &mut self.spare {
+            instance.save_over(spare)?;
+        }
+        let snapshot = match self.spare.take() {
+            Some(snapshot) => snapshot,
+            None => instance.save()?,
         };
+        Ok(self.keep(snapshot))
+    }
+
+    /// Keeps a state under a new number.
+    pub fn keep(&mut self, snapshot: Snapshot) -> Opaque {
+        let number = self.next_number();
         self.states.insert(number, Saved { snapshot, bytes: None });
         std::ptr::without_provenance_mut(number)
+    }
+
+    /// Numbers are never used twice in a process, so that no state of one instance passes for one of another.
+    fn next_number(&mut self) -> usize {
+        /// How many an instance takes at once.
+        const MANY: usize = 256;
+        static NEXT: AtomicUsize = AtomicUsize::new(1);
+        if self.numbers.is_empty() {
+            let first = NEXT.fetch_add(MANY, Ordering::Relaxed);
+            self.numbers = first..first + MANY;
+        }
+        self.numbers.start += 1;
+        self.numbers.start - 1
     }
 
     /// A kept state.
@@ -46,9 +81,11 @@ impl SavedStates {
     /// Unknown state.
     pub fn forget(&mut self, state: Opaque) -> Result<()> {
         match self.states.remove(&state.addr()) {
-            None if !state.is_null() => Err(unknown_state()),
-            _ => Ok(()),
+            None if !state.is_null() => return Err(unknown_state()),
+            None => {}
+            Some(saved) => self.spare = Some(saved.snapshot),
         }
+        Ok(())
     }
 
     /// Bytes of a state of `instance`; written once, since importers ask for the size first.
@@ -62,12 +99,6 @@ impl SavedStates {
         }
         Ok(saved.bytes.as_deref().unwrap_or_default())
     }
-}
-
-/// Numbers are never used twice in a process, so that no state of one instance passes for one of another.
-fn next_number() -> usize {
-    static NEXT: AtomicUsize = AtomicUsize::new(1);
-    NEXT.fetch_add(1, Ordering::Relaxed)
 }
 
 fn unknown_state() -> Error {

@@ -16,8 +16,8 @@ pub unsafe fn get(entry: Entry, state: *mut Opaque) -> Status {
     unsafe {
         entry.change(|component| {
             let previous = memory::read(state, STATE)?;
-            let snapshot = component.instance.save()?;
-            memory::write(state, component.states.keep(snapshot, previous), STATE)
+            let kept = component.states.save(&component.instance, previous)?;
+            memory::write(state, kept, STATE)
         })
     }
 }
@@ -97,7 +97,7 @@ pub unsafe fn deserialize(entry: Entry, bytes: *const u8, size: usize, state: *m
             memory::read(state, STATE)?; // refused before anything is kept
             let bytes = memory::slice(bytes, size, "serializedState")?;
             let snapshot = component.instance.snapshot_from_bytes(bytes)?;
-            memory::write(state, component.states.keep(snapshot, std::ptr::null_mut()), STATE)
+            memory::write(state, component.states.keep(snapshot), STATE)
         })
     }
 }

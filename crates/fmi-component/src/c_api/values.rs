@@ -166,6 +166,18 @@ impl Component {
     /// # Errors
     /// Bad pointers, wrong lengths, unknown references, other types, not computed yet.
     unsafe fn get_reals(&mut self, arrays: Arrays<*mut f64>, access: Access) -> Result<()> {
+        if arrays.count == arrays.length && arrays.count <= self.instance.scalars() {
+            // SAFETY: by the caller's promise.
+            let references =
+                unsafe { memory::slice(arrays.references, arrays.count, "the array of value references") }?;
+            // SAFETY: by the caller's promise.
+            let mut values = unsafe { memory::Output::new(arrays.values, arrays.length, "the array of values") }?;
+            self.reals.resize(arrays.length, 0.0);
+            if self.instance.get_run(references, &mut self.reals)? {
+                values.write_all(&self.reals);
+                return Ok(());
+            }
+        }
         // SAFETY: by the caller's promise.
         let (references, mut values) = unsafe { self.request(arrays) }?;
         self.reals.resize(arrays.length, 0.0);
@@ -241,9 +253,7 @@ impl Component {
         // SAFETY: by the caller's promise.
         let values = unsafe { memory::slice(arrays.values, arrays.length, "the array of values") }?;
         match arrays.length == arrays.count {
-            true => self
-                .instance
-                .set(references, access, |index| Value::Real(values[index])),
+            true => self.instance.set_reals(references, access, values),
             false => self
                 .instance
                 .set_elements(references, access, values.len(), |index| Value::Real(values[index])),

@@ -96,6 +96,10 @@ pub(super) struct Slot {
     pub(super) computed: bool,
     /// Of a [`Kind::Real`].
     pub(super) real: bool,
+    /// How many scalars from this one on are such reals and all computed or all given; none, if this is none.
+    pub(super) run: u32,
+    /// What a scalar [`Kind::Real`] among the inputs may be given; nothing, if it is none.
+    pub(super) signal: [f64; 2],
 }
 
 impl Slot {
@@ -113,7 +117,24 @@ impl Slot {
                 .sum(),
             computed: !variable.causality.is_settable(),
             real: matches!(variable.kind, Kind::Real(_)),
+            run: 0,
+            signal: match variable.kind {
+                Kind::Real(ref quantity) if variable.causality == Causality::Input && span == 1 => {
+                    [quantity.min, quantity.max]
+                }
+                _ => [f64::INFINITY, f64::NEG_INFINITY],
+            },
         };
-        variables.iter().zip(spans).map(slot).collect()
+        let mut slots: Vec<Self> = variables.iter().zip(spans).map(slot).collect();
+        let (mut run, mut computed) = (0, false);
+        for slot in slots.iter_mut().rev() {
+            run = match (slot.real && slot.span == 1, slot.computed == computed) {
+                (true, true) => run + 1,
+                (true, false) => 1,
+                (false, _) => 0,
+            };
+            (slot.run, computed) = (run, slot.computed);
+        }
+        slots
     }
 }

@@ -43,6 +43,17 @@ impl Instance {
         })
     }
 
+    /// As [`Instance::save`], in the place of a state that was saved before and whose memory serves again.
+    ///
+    /// # Errors
+    /// As [`Instance::save`]; the earlier state is then as it was.
+    pub fn save_over(&self, snapshot: &mut Snapshot) -> Result<()> {
+        Call::SaveState.check(self.phase)?;
+        (snapshot.phase, snapshot.stop) = (self.phase, self.stop);
+        self.simulation.save_over(&mut snapshot.simulation);
+        Ok(())
+    }
+
     /// Goes back (or on) to a saved state, in any phase but inside a step.
     ///
     /// # Errors

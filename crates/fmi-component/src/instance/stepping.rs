@@ -8,7 +8,7 @@ use crate::dynamic::DynSimulation;
 use crate::error::{Error, Result};
 use crate::life_cycle::{Call, Phase};
 use crate::model::Reached;
-use crate::times::check_time;
+use crate::times::{check_time, is_simulated};
 use crate::unit::Unit;
 
 /// Importers add up communication points in their own way; as much of a step may differ from ours.
@@ -179,50 +179,64 @@ impl Instance {
     }
 
     /// The importer's own sum, so that its next communication point is ours bit for bit.
+    #[inline]
     fn end_of_step(&self, current: f64, step: f64) -> Result<f64> {
         let now = self.time();
-        if !(step.is_finite() && step > 0.0) {
-            return Err(Error::parameter(
-                "communication step size",
-                Unit::SECOND.format(step),
-                "finite and greater than 0",
-                "Both standards ask for steps forward in time; read outputs without a step.",
-            ));
-        }
-        let tolerance = POINT_TOLERANCE_OF_STEP * step + POINT_TOLERANCE_OF_TIME * now.abs();
-        let fits = (current - now).abs() <= tolerance;
-        if !fits {
-            return Err(Error::parameter(
-                "current communication point",
-                Unit::SECOND.format(current),
-                format!(
-                    "{} within {tolerance:e} s, where the last step ended",
-                    Unit::SECOND.format(now)
-                ),
-                "Steps join without gaps; restore a saved state to go back.",
-            ));
-        }
+        let tolerance = tolerance(step, now);
         let end = current + step;
-        check_time("end of the step", end)?;
-        if end <= now {
-            return Err(Error::parameter(
-                "communication step size",
-                Unit::SECOND.format(step),
-                format!(
-                    "large enough to move the time {} in double precision",
-                    Unit::SECOND.format(now)
-                ),
-                "Take larger steps or start nearer to time zero.",
-            ));
-        }
-        match self.stop {
-            Some(stop) if end > stop + tolerance + POINT_TOLERANCE_OF_TIME * stop.abs() => Err(Error::parameter(
-                "end of the step",
-                Unit::SECOND.format(end),
-                format!("not after the stop time {} given at set-up", Unit::SECOND.format(stop)),
-                "Shorten the step or leave the stop time undefined.",
-            )),
-            _ => Ok(end),
+        let late = |stop: f64| end > stop + tolerance + POINT_TOLERANCE_OF_TIME * stop.abs();
+        let fits = step.is_finite() && step > 0.0 && (current - now).abs() <= tolerance && is_simulated(end);
+        match fits && end > now && !self.stop.is_some_and(late) {
+            true => Ok(end),
+            false => Err(self.no_step(current, step)),
         }
     }
+
+    /// Why there is no step from `current` \[s\] by `step` \[s\].
+    #[cold]
+    fn no_step(&self, current: f64, step: f64) -> Error {
+        let (now, end) = (self.time(), current + step);
+        let tolerance = tolerance(step, now);
+        let [now_text, step_text] = [now, step].map(|time| Unit::SECOND.format(time));
+        if !(step.is_finite() && step > 0.0) {
+            return Error::parameter(
+                "communication step size",
+                step_text,
+                "finite and greater than 0",
+                "Both standards ask for steps forward in time; read outputs without a step.",
+            );
+        }
+        let fits = (current - now).abs() <= tolerance;
+        if !fits {
+            return Error::parameter(
+                "current communication point",
+                Unit::SECOND.format(current),
+                format!("{now_text} within {tolerance:e} s, where the last step ended"),
+                "Steps join without gaps; restore a saved state to go back.",
+            );
+        }
+        if let Err(error) = check_time("end of the step", end) {
+            return error;
+        }
+        if end <= now {
+            return Error::parameter(
+                "communication step size",
+                step_text,
+                format!("large enough to move the time {now_text} in double precision"),
+                "Take larger steps or start nearer to time zero.",
+            );
+        }
+        let stop = Unit::SECOND.format(self.stop.unwrap_or(f64::INFINITY));
+        Error::parameter(
+            "end of the step",
+            Unit::SECOND.format(end),
+            format!("not after the stop time {stop} given at set-up"),
+            "Shorten the step or leave the stop time undefined.",
+        )
+    }
+}
+
+/// How far a communication point may be from ours \[s\].
+fn tolerance(step: f64, now: f64) -> f64 {
+    POINT_TOLERANCE_OF_STEP * step + POINT_TOLERANCE_OF_TIME * now.abs()
 }

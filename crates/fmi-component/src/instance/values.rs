@@ -84,6 +84,34 @@ impl Instance {
         Ok(())
     }
 
+    /// Position of the first of `references`, if all are scalars that [`Slot::run`] counts, one after the other.
+    #[inline]
+    fn first_of_run(&self, references: &[u32]) -> Option<usize> {
+        let first = *references.first()?;
+        let follow = || {
+            (first..)
+                .zip(references)
+                .all(|(expected, reference)| *reference == expected)
+        };
+        let slot = self.slot(first)?;
+        (slot.run as usize >= references.len() && follow()).then(|| first as usize - 1)
+    }
+
+    /// As [`Instance::get_reals`], for scalar reals one after the other, which are the most that importers ask for. False if it is
+    /// for [`Instance::get_reals`].
+    ///
+    /// # Errors
+    /// As [`Instance::get_reals`].
+    #[inline]
+    pub fn get_run(&mut self, references: &[u32], out: &mut [f64]) -> Result<bool> {
+        let Some(first) = self.first_of_run(references) else {
+            return Ok(false);
+        };
+        self.check_readable(first)?;
+        self.simulation.read_reals(first, out)?;
+        Ok(true)
+    }
+
     /// How many of `references`, from the first on, are those of reals beside one another that are all computed or all given,
     /// and how many elements these have.
     #[inline]
@@ -168,6 +196,27 @@ impl Instance {
         self.set_positions(references.len(), position, value)
     }
 
+    /// As [`Instance::set`] for reals, in one go if they are inputs one after the other.
+    ///
+    /// # Errors
+    /// As [`Instance::set`].
+    pub fn set_reals(&mut self, references: &[u32], access: Access, values: &[f64]) -> Result<()> {
+        let fit = |slots: &[Slot]| {
+            let mut pairs = slots.iter().zip(values);
+            pairs.all(|(slot, value)| value.is_finite() && (slot.signal[0]..=slot.signal[1]).contains(value))
+        };
+        let first = self.first_of_run(references).filter(|first| {
+            let slots = self.slots.get(*first..first + references.len());
+            self.takes_inputs() && slots.is_some_and(fit)
+        });
+        let Some(first) = first else {
+            return self.set(references, access, |index| Value::Real(values[index]));
+        };
+        self.forget_model(references.len());
+        self.simulation.set_signals(first, values);
+        Ok(())
+    }
+
     /// Stores `count` values for the elements of `references`, one variable after the other, or, if one of them is refused, none.
     ///
     /// # Errors
@@ -245,13 +294,20 @@ impl Instance {
 
     pub(super) fn check_settable(&self, variable: &Variable) -> Result<()> {
         let before = matches!(self.phase, Phase::Instantiated | Phase::Initialization);
-        let inside = self.phase == Phase::IntermediateUpdate && self.input_parts > 0;
-        let running = inside || matches!(self.phase, Phase::Event | Phase::Step);
         match variable.causality {
             Causality::Parameter if before => Ok(()),
             Causality::Parameter if variable.tunable && matches!(self.phase, Phase::Event | Phase::Step) => Ok(()),
-            Causality::Input if before || running => Ok(()),
+            Causality::Input if self.takes_inputs() => Ok(()),
             _ => Err(not_settable(variable, self.phase)),
+        }
+    }
+
+    /// Whether inputs may be set in this phase.
+    fn takes_inputs(&self) -> bool {
+        match self.phase {
+            Phase::Instantiated | Phase::Initialization | Phase::Event | Phase::Step => true,
+            Phase::IntermediateUpdate => self.input_parts > 0,
+            Phase::Terminated | Phase::Failed => false,
         }
     }
 

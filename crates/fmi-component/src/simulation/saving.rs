@@ -47,14 +47,36 @@ impl<M: Model> Simulation<M> {
         }
     }
 
+    /// As [`Simulation::save`], in the place of a state that was saved before and whose memory serves again.
+    pub fn save_over(&self, saved: &mut Saved<M::State>) {
+        let (Some(model), Some(state)) = (&self.model, &mut saved.state) else {
+            *saved = self.save();
+            return;
+        };
+        model.state_over(state);
+        (saved.start, saved.time) = (self.start, self.time);
+        saved.values.clear();
+        saved.values.extend_from_slice(self.values.as_slice());
+        saved.tuned.clone_from(&self.tuned);
+        self.values.all_bytes().clone_into(&mut saved.bytes);
+    }
+
     /// Goes back (or on) to a saved state and restores its parameters, those included that were set and wait for the next step.
     ///
     /// # Errors
     /// The state does not fit this model or its structure, or is damaged. The simulation is then as before.
     pub fn restore(&mut self, saved: &Saved<M::State>) -> Result<()> {
         self.check(saved)?;
+        self.go_to(saved)
+    }
+
+    /// As [`Simulation::restore`], for a state that this same simulation has saved or checked.
+    ///
+    /// # Errors
+    /// The model refuses the state. The simulation is then as before.
+    pub(crate) fn go_to(&mut self, saved: &Saved<M::State>) -> Result<()> {
         let same = self.is_started() && self.start == saved.start && self.tuned.is_of_the_same_start(&saved.tuned);
-        let known = same && self.tuned == saved.tuned;
+        let known = same && self.tuned.now == saved.tuned.now;
         match (&saved.state, self.model.as_mut().filter(|_| same)) {
             (None, _) => self.model = None,
             (Some(state), Some(model)) => {
@@ -65,7 +87,7 @@ impl<M: Model> Simulation<M> {
                 self.model = Some(self.build_tuned(saved.start, state, &values, &saved.tuned)?);
             }
         }
-        self.values.put_back(&saved.values, &saved.bytes)?;
+        self.values.take_over(&saved.values, &saved.bytes);
         if saved.is_started() && !known {
             self.tuned.clone_from(&saved.tuned);
             self.judge_parameters();

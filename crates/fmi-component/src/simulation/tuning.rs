@@ -9,7 +9,7 @@ use crate::value::Value;
 use crate::values::Values;
 
 /// What a model was built from, and what it knows of the tunable parameters; empty before the start.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tuned {
     /// All parameters and inputs that the model was built from.
     at_start: Vec<Value>,
@@ -17,7 +17,24 @@ pub struct Tuned {
     bytes_at_start: Vec<Vec<u8>>,
     /// Tunable parameters that it has now, in the order of [`Table::tunable`](crate::Table::tunable). One that was set since the last
     /// step has another value among the [`Values`].
-    now: Vec<Value>,
+    pub(super) now: Vec<Value>,
+}
+
+// A derived one would make all of it anew in `clone_from`.
+impl Clone for Tuned {
+    fn clone(&self) -> Self {
+        Self {
+            at_start: self.at_start.clone(),
+            bytes_at_start: self.bytes_at_start.clone(),
+            now: self.now.clone(),
+        }
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        self.at_start.clone_from(&other.at_start);
+        self.bytes_at_start.clone_from(&other.bytes_at_start);
+        self.now.clone_from(&other.now);
+    }
 }
 
 impl Tuned {
@@ -134,7 +151,11 @@ impl<M: Model> Simulation<M> {
 
     /// Whether a tunable parameter was set to another value than the model has.
     pub(super) fn is_retuned(&self) -> bool {
-        self.is_started() && self.values.tunable() != self.tuned.now
+        let tunable = self.values.table().tunable().iter();
+        self.is_started()
+            && !tunable
+                .map(|position| &self.values.as_slice()[*position])
+                .eq(&self.tuned.now)
     }
 }
 

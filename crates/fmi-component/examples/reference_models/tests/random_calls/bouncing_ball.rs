@@ -1,16 +1,8 @@
-//! Random sequences of calls of all functions of both versions, on a model with events and a tunable parameter: see `fuzz/run`.
+//! Random sequences of calls on a model with events and a tunable parameter.
 #![allow(unsafe_code, dead_code, clippy::undocumented_unsafe_blocks)]
 
-#[path = "../../../../../../fuzz/harness/fmi.rs"]
-mod fmi;
-#[path = "../../../../../../fuzz/harness/fmi_calls.rs"]
-mod fmi_calls;
-#[path = "../../../../../../fuzz/harness/hand.rs"]
-mod hand;
-#[path = "../../../../../../fuzz/harness/lives.rs"]
-mod lives;
-#[path = "../../../../../../fuzz/harness/tokens.rs"]
-mod tokens;
+#[path = "../../../../../../fuzz/harness/model.rs"]
+mod harness;
 
 /// What the harness knows of the model.
 mod library {
@@ -22,15 +14,6 @@ mod library {
     pub const LONGEST_STEP: f64 = 10.0;
 
     pub fn tokens() -> (Vec<String>, usize) {
-        super::tokens::of(&reference_models::ALL[0].1, &[&[]])
-    }
-}
-
-use proptest::prelude::*;
-
-proptest! {
-    #[test]
-    fn any_sequence_of_calls_is_answered(bytes in prop::collection::vec(any::<u8>(), 0..1000)) {
-        fmi_calls::run(&bytes);
+        super::harness::tokens::of(&reference_models::ALL[0].1, &[&[]])
     }
 }

@@ -28,6 +28,7 @@ mod program;
 pub mod reference;
 mod related_files;
 mod replay;
+mod run;
 pub mod system;
 pub mod terminals;
 mod xml;

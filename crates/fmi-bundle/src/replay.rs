@@ -14,6 +14,7 @@ use std::collections::hash_map::Entry;
 use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
+use std::sync::Arc;
 
 use fmi_component::{Error, Result};
 use zip::ZipArchive;
@@ -105,7 +106,7 @@ pub fn replay_archive(fmu: impl Read + Seek) -> Result<Option<ReplayReport>> {
     let unknown = |name: &str| refused(format!("{table} names {name}, which modelDescription.xml does not"));
     let column = |name: &String| description.column(name).ok_or_else(|| unknown(name));
     let columns = trajectory.names[1..].iter().map(column).collect::<Result<Vec<_>>>()?;
-    let instance = Library::load(&binary)?.instantiate(&description.token)?;
+    let instance = Instance::new(Arc::new(Library::load(&binary)?), &description.token)?;
     if trajectory.rows.is_empty() {
         return Ok(None);
     }
@@ -148,7 +149,11 @@ fn binary_path(description: &Description, held: &[String]) -> Result<String> {
 fn compare(mut instance: Instance, table: &Trajectory, columns: &[Column]) -> Result<ReplayReport> {
     let (inputs, outputs): (Vec<_>, Vec<_>) = (1..table.names.len()).partition(|index| columns[index - 1].input);
     let first = inputs_of(&table.rows[0], &inputs, columns);
-    instance.initialize(table.rows[0][0], &first)?;
+    instance.enter_initialization(table.rows[0][0])?;
+    for (reference, values) in first {
+        instance.set(reference, &values)?;
+    }
+    instance.exit_initialization()?;
     let mut report = ReplayReport {
         rows: table.rows.len(),
         values: 0,

@@ -100,7 +100,7 @@ fn check_library(library: &Path, fmu: &[u8]) -> Result<()> {
     const BUILD_BOTH: &str =
         "Build the library and this program from the same sources: cargo build --release --workspace.";
     let foreign = |what: String| Error::file(library, what, BUILD_BOTH);
-    let report = replay_archive(Cursor::new(fmu)).map_err(|error| match error {
+    let report = replay_archive(Cursor::new(fmu), None).map_err(|error| match error {
         Error::Call { what, .. } => foreign(what),
         other => other,
     })?;

@@ -15,8 +15,10 @@ use crate::package::{Chosen, Wish};
 /// The crate makes a library of type cdylib and exports its model by fmi_component::export_fmu!. The FMUs hold the library for this system
 /// and those for each --target. Licence, authors and addresses are those of its Cargo.toml.
 #[derive(Args)]
-#[command(after_help = "Examples:\n  cargo fmu-bundle build\n  cargo fmu-bundle build --package pendulum --target x86_64-pc-windows-gnu \
-                        --out fmus/\n  cargo fmu-bundle build --fmi 3 --out pendulum.fmu -- --locked")]
+#[command(
+    after_help = "Examples:\n  cargo fmu-bundle build\n  cargo fmu-bundle build --package pendulum --target x86_64-pc-windows-gnu \
+                        --out fmus/\n  cargo fmu-bundle build --fmi 3 --out pendulum.fmu -- --locked"
+)]
 pub struct Build {
     /// Package of the workspace, if it has several.
     #[arg(short, long, value_name = "NAME")]

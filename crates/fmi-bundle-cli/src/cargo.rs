@@ -45,7 +45,10 @@ pub fn build(chosen: &Chosen, options: &Options, triple: Option<&str>) -> Result
     let mut command = command(chosen, options, triple);
     let name = command.get_program().to_string_lossy().into_owned();
     let failed = |error: std::io::Error| {
-        Error::call(format!("{name} does not run: {error}"), "Install Rust: https://rustup.rs.")
+        Error::call(
+            format!("{name} does not run: {error}"),
+            "Install Rust: https://rustup.rs.",
+        )
     };
     let mut child = command.spawn().map_err(failed)?;
     let mut files = Vec::new();
@@ -68,14 +71,24 @@ pub fn build(chosen: &Chosen, options: &Options, triple: Option<&str>) -> Result
         None => chosen.package.name.to_string(),
     };
     if !status.success() {
-        return Err(Error::call(format!("cargo could not build {what} ({status})"), remedy(triple)));
+        return Err(Error::call(
+            format!("cargo could not build {what} ({status})"),
+            remedy(triple),
+        ));
     }
-    let shared = |path: &PathBuf| Platform::ALL.iter().any(|platform| path.to_string_lossy().ends_with(platform.suffix()));
+    let shared = |path: &PathBuf| {
+        Platform::ALL
+            .iter()
+            .any(|platform| path.to_string_lossy().ends_with(platform.suffix()))
+    };
     files.iter().find(|path| shared(path)).cloned().ok_or_else(|| {
         let made: Vec<_> = files.iter().map(|path| path.display().to_string()).collect();
         let what = format!("cargo made no shared library of {what}, but {}", made.join(", "));
         let names = Platform::ALL.map(Platform::name).join(", ");
-        Error::call(what, format!("An FMU holds libraries for {names}: build for one of these."))
+        Error::call(
+            what,
+            format!("An FMU holds libraries for {names}: build for one of these."),
+        )
     })
 }
 
@@ -110,13 +123,20 @@ fn remedy(triple: Option<&str>) -> String {
     const MEND: &str = "Mend what the compiler says above.";
     let Some(triple) = triple else { return MEND.into() };
     let rustc = env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let asked = Command::new(rustc).args(["--print", "target-libdir", "--target", triple]).stderr(Stdio::null()).output();
+    let asked = Command::new(rustc)
+        .args(["--print", "target-libdir", "--target", triple])
+        .stderr(Stdio::null())
+        .output();
     match asked {
         Ok(output) if output.status.success() => {
             let folder = String::from_utf8_lossy(&output.stdout).trim().to_string();
             match Path::new(&folder).is_dir() {
-                true => format!("{MEND} A linker for {triple} is needed too: see `linker` in the configuration of cargo."),
-                false => format!("Rust's standard library for {triple} is not installed here: rustup target add {triple}."),
+                true => {
+                    format!("{MEND} A linker for {triple} is needed too: see `linker` in the configuration of cargo.")
+                }
+                false => {
+                    format!("Rust's standard library for {triple} is not installed here: rustup target add {triple}.")
+                }
             }
         }
         _ => format!("rustc knows no system {triple}: rustc --print target-list names those that it knows."),

@@ -15,7 +15,11 @@ const LICENCES: [&str; 5] = ["LICENSE", "LICENCE", "COPYING", "NOTICE", "COPYRIG
 /// the workspace.
 pub fn notices(chosen: &Chosen) -> Notices {
     let package = &chosen.package;
-    let folder = package.manifest_path.parent().map(|folder| folder.as_std_path().to_path_buf()).unwrap_or_default();
+    let folder = package
+        .manifest_path
+        .parent()
+        .map(|folder| folder.as_std_path().to_path_buf())
+        .unwrap_or_default();
     let named = package.license_file().map(|path| vec![path.into_std_path_buf()]);
     let paths = named.unwrap_or_else(|| match licences_in(folder) {
         found if found.is_empty() => licences_in(chosen.workspace.clone()),
@@ -23,13 +27,20 @@ pub fn notices(chosen: &Chosen) -> Notices {
     });
     let mut files = Vec::new();
     for path in paths {
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let name = path
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned())
+            .unwrap_or_default();
         match fs::read_to_string(&path) {
             Ok(text) => files.push((name, text)),
             Err(error) => eprintln!("warning: {}: {error}: the FMU lacks it.", path.display()),
         }
     }
-    let copyright = files.iter().flat_map(|(_, text)| text.lines()).map(str::trim).find(|line| line.starts_with("Copyright (c)"));
+    let copyright = files
+        .iter()
+        .flat_map(|(_, text)| text.lines())
+        .map(str::trim)
+        .find(|line| line.starts_with("Copyright (c)"));
     Notices {
         license: package.license.clone().unwrap_or_default(),
         copyright: copyright.unwrap_or_default().into(),
@@ -38,9 +49,16 @@ pub fn notices(chosen: &Chosen) -> Notices {
 }
 
 fn licences_in(folder: PathBuf) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let entries = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path());
     let is_licence = |path: &PathBuf| {
-        let name = path.file_name().map(|name| name.to_string_lossy().to_uppercase()).unwrap_or_default();
+        let name = path
+            .file_name()
+            .map(|name| name.to_string_lossy().to_uppercase())
+            .unwrap_or_default();
         path.is_file() && LICENCES.iter().any(|beginning| name.starts_with(beginning))
     };
     let mut found: Vec<PathBuf> = entries.filter(is_licence).collect();

@@ -71,7 +71,11 @@ impl Wanted {
     /// # Errors
     /// No library for this system; a library without a model; a panic of the model; no place to write to.
     pub fn write(&self, libraries: &Libraries, complete: impl FnOnce(&mut Component)) -> Result<()> {
-        let structure = self.structure.iter().map(|text| structural(text)).collect::<Result<Vec<_>>>()?;
+        let structure = self
+            .structure
+            .iter()
+            .map(|text| structural(text))
+            .collect::<Result<Vec<_>>>()?;
         let versions = self.versions()?;
         let host = Platform::host();
         let library = host.and_then(|host| Some((libraries.path(host)?, libraries.get(host)?)));
@@ -103,7 +107,12 @@ impl Wanted {
         match (self.fmi, self.arrays) {
             (Standard::Two, true) => {
                 let allowed = "3 with --arrays, since FMI 2.0 has no array variables";
-                Err(Error::parameter("--fmi", 2, allowed, "Give --fmi 3, or leave --arrays out."))
+                Err(Error::parameter(
+                    "--fmi",
+                    2,
+                    allowed,
+                    "Give --fmi 3, or leave --arrays out.",
+                ))
             }
             (Standard::Two, false) => Ok(vec![Version::Two]),
             (Standard::Three, _) | (Standard::Both, true) => Ok(vec![Version::Three]),
@@ -113,7 +122,9 @@ impl Wanted {
 }
 
 fn structural(text: &str) -> Result<(&str, u32)> {
-    let parts = text.split_once('=').and_then(|(name, number)| Some((name, number.parse().ok()?)));
+    let parts = text
+        .split_once('=')
+        .and_then(|(name, number)| Some((name, number.parse().ok()?)));
     parts.ok_or_else(|| Error::parameter("--structure", text, "NAME=NUMBER, a whole number", "Write it so."))
 }
 

@@ -42,7 +42,11 @@ impl Chosen {
             let place = wish.manifest.unwrap_or(Path::new("Cargo.toml"));
             let said = error.to_string();
             let said = said.split_once("error: ").map_or(said.as_str(), |(_, rest)| rest);
-            Error::file(place, said.trim().trim_end_matches('.'), "Go into the folder of a crate, or name its Cargo.toml by --manifest-path.")
+            Error::file(
+                place,
+                said.trim().trim_end_matches('.'),
+                "Go into the folder of a crate, or name its Cargo.toml by --manifest-path.",
+            )
         })?;
         let package = choose(&metadata, wish)?.clone();
         let target = library(&package, wish.example)?.clone();
@@ -56,11 +60,20 @@ impl Chosen {
 
 fn choose<'a>(metadata: &'a Metadata, wish: &Wish) -> Result<&'a Package> {
     let members = metadata.workspace_packages();
-    let names = |list: &[&Package]| list.iter().map(|package| package.name.to_string()).collect::<Vec<_>>().join(", ");
+    let names = |list: &[&Package]| {
+        list.iter()
+            .map(|package| package.name.to_string())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     if let Some(name) = wish.package {
         let found = members.iter().find(|package| package.name.as_str() == name);
         return found.copied().ok_or_else(|| {
-            let allowed = format!("a package of the workspace {}: {}", metadata.workspace_root, names(&members));
+            let allowed = format!(
+                "a package of the workspace {}: {}",
+                metadata.workspace_root,
+                names(&members)
+            );
             Error::parameter("--package", name, allowed, "Name one of these.")
         });
     }
@@ -81,7 +94,10 @@ fn choose<'a>(metadata: &'a Metadata, wish: &Wish) -> Result<&'a Package> {
         [package] => Ok(package),
         [] => Err(Error::file(
             metadata.workspace_root.as_std_path(),
-            format!("no package of this workspace has a library of type cdylib; its packages are {}", names(&members)),
+            format!(
+                "no package of this workspace has a library of type cdylib; its packages are {}",
+                names(&members)
+            ),
             CDYLIB.replace("its Cargo.toml", "the Cargo.toml of one") + ".",
         )),
         several => Err(Error::parameter(
@@ -109,23 +125,44 @@ fn library<'a>(package: &'a Package, example: Option<&str>) -> Result<&'a Target
     let is_shared = |target: &&Target| target.crate_types.contains(&CrateType::CDyLib);
     let manifest = package.manifest_path.as_std_path();
     let Some(name) = example else {
-        let found = package.targets.iter().find(|target| is_shared(target) && !target.is_example());
+        let found = package
+            .targets
+            .iter()
+            .find(|target| is_shared(target) && !target.is_example());
         return found.ok_or_else(|| {
             let what = match package.targets.iter().find(|target| target.is_lib()) {
-                Some(_) => format!("the library of package {} is not of type cdylib, which an FMU holds", package.name),
-                None => format!("package {} has no library of type cdylib, which an FMU holds", package.name),
+                Some(_) => format!(
+                    "the library of package {} is not of type cdylib, which an FMU holds",
+                    package.name
+                ),
+                None => format!(
+                    "package {} has no library of type cdylib, which an FMU holds",
+                    package.name
+                ),
             };
             Error::file(manifest, what, format!("{CDYLIB}."))
         });
     };
-    let shared: Vec<&Target> = package.targets.iter().filter(is_shared).filter(|target| target.is_example()).collect();
-    shared.iter().find(|target| target.name == name).copied().ok_or_else(|| {
-        let names: Vec<&str> = shared.iter().map(|target| target.name.as_str()).collect();
-        let allowed = match names.as_slice() {
-            [] => format!("an example of package {} that is a cdylib, of which there is none", package.name),
-            names => format!("one of package {}: {}", package.name, names.join(", ")),
-        };
-        let remedy = format!("Name one of these, or add: [[example]] name = \"{name}\" crate-type = [\"cdylib\"].");
-        Error::parameter("--example", name, allowed, remedy)
-    })
+    let shared: Vec<&Target> = package
+        .targets
+        .iter()
+        .filter(is_shared)
+        .filter(|target| target.is_example())
+        .collect();
+    shared
+        .iter()
+        .find(|target| target.name == name)
+        .copied()
+        .ok_or_else(|| {
+            let names: Vec<&str> = shared.iter().map(|target| target.name.as_str()).collect();
+            let allowed = match names.as_slice() {
+                [] => format!(
+                    "an example of package {} that is a cdylib, of which there is none",
+                    package.name
+                ),
+                names => format!("one of package {}: {}", package.name, names.join(", ")),
+            };
+            let remedy = format!("Name one of these, or add: [[example]] name = \"{name}\" crate-type = [\"cdylib\"].");
+            Error::parameter("--example", name, allowed, remedy)
+        })
 }

@@ -11,7 +11,9 @@ use fmi_bundle::{Error, Result, TOLERANCE, replay, replay_against};
 /// sines and exponentials from Rust code; those of the system's C library may differ in the last ones. Differences up to a millionth
 /// of a variable's size pass.
 #[derive(Args)]
-#[command(after_help = "Examples:\n  fmu-bundle replay pendulum.fmi3.fmu\n  fmu-bundle replay pendulum.fmi3.fmu --reference measured.csv --tolerance 1e-3")]
+#[command(
+    after_help = "Examples:\n  fmu-bundle replay pendulum.fmi3.fmu\n  fmu-bundle replay pendulum.fmi3.fmu --reference measured.csv --tolerance 1e-3"
+)]
 pub struct Replay {
     /// FMU to run. Its library is run with your rights: replay only what you trust.
     #[arg(value_name = "FILE.fmu")]

@@ -21,8 +21,8 @@ use std::path::{Path, PathBuf};
 use fmi_component::{Error, Result, Version};
 
 use crate::archive::{self, Member};
-use crate::check::check_names;
 use crate::component::{Component, Notices};
+use crate::legal::check_names;
 use crate::libraries::Libraries;
 use crate::platform::Platform;
 use crate::replay::{TOLERANCE, replay_archive};

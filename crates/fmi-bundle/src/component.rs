@@ -9,8 +9,8 @@ use fmi_component::{
     Error, Kind, ModelInfo, ModelType, Result, StructuralParameters, Table, Variable, Version, arrays, token,
 };
 
-use crate::check::check;
 use crate::importer::{Instance, Library};
+use crate::legal::check;
 use crate::run::{Linked, Loaded, MEND, Run};
 
 /// Whose work the FMU is, and under which terms it may be used.
@@ -114,13 +114,20 @@ impl Component {
     /// As of [`Component::new`]; the library is not for this system, or exports no model, or was built with a `fmi-component` whose
     /// description has another format.
     pub fn from_library(bytes: &[u8], structure: &[(&str, u32)]) -> Result<Self> {
-        let library = Library::load(bytes)?;
+        Self::of_library(Arc::new(Library::load(bytes)?), structure)
+    }
+
+    /// As [`Component::from_library`], of a library that was loaded.
+    ///
+    /// # Errors
+    /// As there.
+    pub(crate) fn of_library(library: Arc<Library>, structure: &[(&str, u32)]) -> Result<Self> {
         let choices: Vec<String> = structure
             .iter()
             .map(|(name, value)| format!("{name}={value}"))
             .collect();
         let description = library.describe(&choices.join("\n"))?;
-        Self::described(Source::Loaded(Arc::new(library)), description)
+        Self::described(Source::Loaded(library), description)
     }
 
     fn described(source: Source, description: Description) -> Result<Self> {
@@ -181,14 +188,23 @@ impl Component {
     pub(crate) fn prepare(&self) -> Result<Box<dyn Run>> {
         match &self.source {
             Source::Linked(model) => Ok(Box::new(Linked((model.prepare)(self.structure.clone())))),
-            Source::Loaded(library) => {
-                let token = token::write(&self.info, &self.structure, self.table.variables(), false);
-                Ok(Box::new(Loaded {
-                    instance: Instance::new(library.clone(), &token)?,
-                    table: self.table.clone(),
-                    time: 0.0,
-                }))
-            }
+            Source::Loaded(_) => Ok(Box::new(Loaded {
+                instance: self.instance(false)?,
+                table: self.table.clone(),
+                time: 0.0,
+            })),
+        }
+    }
+
+    /// An instance of the library, with array variables or not.
+    ///
+    /// # Errors
+    /// The library does not make one; the model is linked with this program.
+    pub(crate) fn instance(&self, arrays: bool) -> Result<Instance> {
+        let token = token::write(&self.info, &self.structure, self.table.variables(), arrays);
+        match &self.source {
+            Source::Loaded(library) => Instance::new(library.clone(), &token),
+            Source::Linked(_) => Err(Error::call("the model is in no library", "Make it of one.")),
         }
     }
 

@@ -20,6 +20,7 @@ mod check;
 mod component;
 mod documentation;
 mod importer;
+mod legal;
 mod libraries;
 mod merge;
 pub mod model_description;
@@ -35,6 +36,7 @@ pub mod terminals;
 mod xml;
 
 pub use bundle::{cannot_write, find_library, pack, write};
+pub use check::{CheckReport, Fault, check};
 pub use component::{Component, Icon, Notices, Origin, nominal_amplitude};
 pub use fmi_component::{Error, Result, Version};
 pub use libraries::Libraries;

@@ -47,7 +47,10 @@ fn place(component: &Component, version: Version, out: Option<&Path>) -> Result<
     };
     let name = format!("{}.{suffix}.fmu", component.info().identifier);
     let Some(out) = out else { return Ok(name.into()) };
-    let is_folder = out.as_os_str().to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR]);
+    let is_folder = out
+        .as_os_str()
+        .to_string_lossy()
+        .ends_with(['/', std::path::MAIN_SEPARATOR]);
     if is_folder {
         fs::create_dir_all(out).map_err(|error| cannot_write(out, &error))?;
     }
@@ -64,7 +67,12 @@ fn about(component: &Component, version: Version, libraries: &Libraries) -> Stri
     };
     let platforms = libraries.iter().map(|(platform, _)| platform);
     let (held, left): (Vec<_>, Vec<_>) = platforms.partition(|platform| platform.folder(version).is_some());
-    let names = |list: Vec<crate::Platform>| list.iter().map(|platform| platform.name()).collect::<Vec<_>>().join(", ");
+    let names = |list: Vec<crate::Platform>| {
+        list.iter()
+            .map(|platform| platform.name())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     let mut text = format!("FMI {number} for {}", names(held));
     if !left.is_empty() {
         text.push_str(&format!("; FMI 2.0 has no folder for {}", names(left)));

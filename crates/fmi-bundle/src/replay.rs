@@ -131,10 +131,7 @@ fn replay_file(fmu: &Path, table: Option<(String, Vec<u8>)>) -> Result<ReplayRep
 ///
 /// # Errors
 /// As [`replay()`]. [`Error::Call`] is about the FMU and does not name it.
-pub fn replay_archive(
-    fmu: impl Read + Seek,
-    given: Option<(String, Vec<u8>)>,
-) -> Result<Option<ReplayReport>> {
+pub fn replay_archive(fmu: impl Read + Seek, given: Option<(String, Vec<u8>)>) -> Result<Option<ReplayReport>> {
     let refused = |what: String| Error::call(what, MAKE_ANEW);
     let mut archive = ZipArchive::new(fmu).map_err(|error| refused(error.to_string()))?;
     let held: Vec<String> = archive.file_names().flatten().map(Cow::into_owned).collect();

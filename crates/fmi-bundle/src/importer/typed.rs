@@ -1,7 +1,7 @@
 //! Values of an instance by the functions of FMI 3.0 for their types.
 #![allow(unsafe_code)] // C functions of a library that is known at run time alone
 
-use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ffi::{CStr, c_char, c_int, c_void};
 use std::ptr::null;
 
 use fmi_component::{Error, Kind, Result, Value, WholeSize};
@@ -116,15 +116,6 @@ impl Instance {
             // SAFETY: not null; the library promises `size` bytes that live until the next call.
             false => Ok(unsafe { std::slice::from_raw_parts(bytes, size) }.to_vec()),
         }
-    }
-
-    /// Sets a text.
-    ///
-    /// # Errors
-    /// The library refuses; a zero byte.
-    pub fn set_text(&mut self, reference: u32, text: &str) -> Result<()> {
-        let text = CString::new(text).map_err(|_| Error::call("a text with a zero byte", "Leave it out."))?;
-        self.set_all(c"fmi3SetString", reference, &[text.as_ptr()])
     }
 
     fn whole<T: Copy + Default + TryInto<i64>>(

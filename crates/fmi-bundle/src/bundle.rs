@@ -121,7 +121,7 @@ pub fn cannot_write(out: &Path, error: &io::Error) -> Error {
         _ => "the current folder".into(),
     };
     let (what, remedy) = match error.kind() {
-        ErrorKind::NotFound => (
+        ErrorKind::NotFound if !out.parent().is_some_and(Path::is_dir) => (
             format!("the folder {folder} does not exist"),
             "Create it, or choose another.",
         ),

@@ -127,7 +127,8 @@ fn replay_file(fmu: &Path, table: Option<(String, Vec<u8>)>) -> Result<ReplayRep
     })
 }
 
-/// As [`replay()`], of an FMU that need not be a file, and along the trajectory in `given`, which has a name, if there is one; none where the model refuses its start values.
+/// As [`replay()`], of an FMU that need not be a file, and along the trajectory in `given`, which has a name, if there is one; none
+/// where the model refuses its start values.
 ///
 /// # Errors
 /// As [`replay()`]. [`Error::Call`] is about the FMU and does not name it.

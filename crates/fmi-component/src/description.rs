@@ -160,8 +160,7 @@ mod tests {
             );
             let names: Arc<[&'static str]> = Arc::from(["tau"]);
             rows.extend((0..structure.get("bodies")).map(|body| {
-                Row::output(&format!("x[{}]", body + 1), Unit::METRE, 1.0, "Place.", |_: &Self| 0.0)
-                    .depending_on(&names)
+                Row::output(format!("x[{}]", body + 1), Unit::METRE, 1.0, "Place.", |_: &Self| 0.0).depending_on(&names)
             }));
             rows
         }

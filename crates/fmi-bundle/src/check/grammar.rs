@@ -216,7 +216,7 @@ fn refusal(kind: &str, value: &str) -> Option<String> {
         "bool" => (matches!(value, "true" | "false" | "1" | "0"), "true or false"),
         "date" => (is_date(value), "a date such as 2026-11-24T06:00:00Z"),
         "hex" => (
-            value.len() % 2 == 0 && value.bytes().all(|byte| byte.is_ascii_hexdigit()),
+            value.len().is_multiple_of(2) && value.bytes().all(|byte| byte.is_ascii_hexdigit()),
             "pairs of hexadecimal digits",
         ),
         "version3" => (

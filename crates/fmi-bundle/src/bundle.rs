@@ -21,8 +21,8 @@ use std::path::{Path, PathBuf};
 use fmi_component::{Error, Result, Version};
 
 use crate::archive::{self, Member};
-use crate::check::check_names;
 use crate::component::{Component, Notices};
+use crate::legal::check_names;
 use crate::libraries::Libraries;
 use crate::platform::Platform;
 use crate::replay::{TOLERANCE, replay_archive};
@@ -100,7 +100,7 @@ fn check_library(library: &Path, fmu: &[u8]) -> Result<()> {
     const BUILD_BOTH: &str =
         "Build the library and this program from the same sources: cargo build --release --workspace.";
     let foreign = |what: String| Error::file(library, what, BUILD_BOTH);
-    let report = replay_archive(Cursor::new(fmu)).map_err(|error| match error {
+    let report = replay_archive(Cursor::new(fmu), None).map_err(|error| match error {
         Error::Call { what, .. } => foreign(what),
         other => other,
     })?;
@@ -121,7 +121,7 @@ pub fn cannot_write(out: &Path, error: &io::Error) -> Error {
         _ => "the current folder".into(),
     };
     let (what, remedy) = match error.kind() {
-        ErrorKind::NotFound => (
+        ErrorKind::NotFound if !out.parent().is_some_and(Path::is_dir) => (
             format!("the folder {folder} does not exist"),
             "Create it, or choose another.",
         ),

@@ -1,143 +1,119 @@
-//! Whether importers will read what a model says of itself: names, texts, ranges, default experiment.
+//! FMU in, its faults out: what no importer would take, and what its library does otherwise than its model description says.
 //!
-//! Source: FMI 2.0 sections 2.2.1, 2.2.7 and 2.2.9; FMI 3.0 sections 2.4.1 and 2.4.7.
+//! The files are checked as they are in the FMU: paths, structure of the XML by the grammars in this folder, names, ranges, references, folders and
+//! headers of the libraries, files that others name. Then the library for this system is loaded: it tells what its model is, its start values
+//! are read, and every parameter and input is varied to see which outputs change. [`replay()`](crate::replay()) compares what it computes.
 
-use fmi_component::{Error, Kind, ModelInfo, Result, TIME, Value, Variable};
+mod binaries;
+mod contents;
+mod dependencies;
+mod description;
+mod findings;
+mod grammar;
+mod library;
+mod names;
+mod resources;
 
-/// Checks what the files of an FMU are made from.
+use std::path::Path;
+
+use fmi_component::{Error, Result, Version};
+use roxmltree::Document;
+
+use crate::archive::Member;
+use crate::platform::Platform;
+use crate::reference;
+use description::{Described, PATH};
+pub use findings::{CheckReport, Fault};
+use grammar::Grammar;
+
+/// Checks the FMU in the file, or in the folder, `fmu`. Its library is run with the rights of this program.
 ///
 /// # Errors
-/// The first text or number that no importer would take, by name.
-pub fn check(info: &ModelInfo, variables: &[Variable]) -> Result<()> {
-    check_identifier(&info.identifier)?;
-    check_package(info.package)?;
-    check_text("name of the model", info.name)?;
-    check_text("version of the model", info.version)?;
-    check_text("description of the model", info.description)?;
-    check_duration("stop time of the default experiment", info.stop_time)?;
-    check_duration("step size of the default experiment", info.step_size)?;
-    variables.iter().try_for_each(check_variable)
+/// It cannot be read, or is neither an archive nor a folder. Whatever is wrong inside of it is in the report.
+pub fn check(fmu: &Path) -> Result<CheckReport> {
+    let mut report = CheckReport::default();
+    let members = contents::read(fmu, &mut report)?;
+    let Some(text) = members.iter().find(|member| member.path == PATH) else {
+        report.fault(PATH, "it is missing", "Name an FMU.");
+        return Ok(report);
+    };
+    match String::from_utf8(text.bytes.clone()) {
+        Err(_) => report.fault(PATH, "it is not UTF-8", "Write it in UTF-8."),
+        Ok(text) => match Document::parse(&text) {
+            Err(error) => report.fault(PATH, error.to_string(), "Write it as XML."),
+            Ok(document) => check_contents(&document, &members, &mut report),
+        },
+    }
+    Ok(report)
 }
 
-/// It is part of file names and of C names.
-fn check_identifier(identifier: &str) -> Result<()> {
-    let is_letter = |byte: u8| byte.is_ascii_alphabetic() || byte == b'_';
-    let rest_fits = identifier.bytes().all(|byte| is_letter(byte) || byte.is_ascii_digit());
-    match identifier.bytes().next() {
-        Some(first) if is_letter(first) && rest_fits => Ok(()),
-        _ => Err(Error::parameter(
-            "identifier of the model",
-            format!("{identifier:?}"),
-            "a C identifier: letters, digits and underscores, no digit first",
-            "Name the model by one, such as mechanics_pendulum.",
-        )),
-    }
-}
-
-/// It is the name of a folder.
-fn check_package(package: &str) -> Result<()> {
-    let fits = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-';
-    if !package.is_empty() && package.bytes().all(fits) {
-        return Ok(());
-    }
-    Err(Error::parameter(
-        "package of the model",
-        format!("{package:?}"),
-        "letters, digits, underscores and hyphens",
-        "Give the name of the package.",
-    ))
-}
-
-/// XML 1.0 has no control characters but tabulators and ends of lines.
-fn check_text(what: &str, text: &str) -> Result<()> {
-    let is_bad = |letter: char| letter.is_control() && !matches!(letter, '\t' | '\n' | '\r');
-    if !text.contains(is_bad) {
-        return Ok(());
-    }
-    Err(Error::parameter(
-        what,
-        format!("{text:?}"),
-        "text without control characters",
-        "Write it without.",
-    ))
-}
-
-fn check_duration(what: &str, seconds: f64) -> Result<()> {
-    if seconds.is_finite() && seconds > 0.0 {
-        return Ok(());
-    }
-    Err(Error::parameter(
-        what,
-        format!("{seconds} s"),
-        "finite and greater than 0",
-        "Give a time that shows what the model does.",
-    ))
-}
-
-fn check_variable(variable: &Variable) -> Result<()> {
-    let name = &variable.name;
-    if name.is_empty() || name == TIME || name.contains(char::is_control) {
-        return Err(Error::parameter(
-            "name of a variable",
-            format!("{name:?}"),
-            format!("text without control characters, not empty, other than {TIME:?}"),
-            "Rename the variable.",
-        ));
-    }
-    check_text(&format!("description of {name}"), &variable.description)?;
-    if let Some(quantity) = variable.kind.quantity() {
-        let (min, max, nominal) = (quantity.min, quantity.max, quantity.nominal);
-        if min.is_nan() || max.is_nan() || min > max {
-            return Err(Error::parameter(
-                format!("range of {name}"),
-                format!("from {} to {}", Value::Real(min), Value::Real(max)),
-                "from a number to one that is not smaller",
-                "Give the smallest allowed value first.",
-            ));
+fn check_contents(document: &Document<'_>, members: &[Member], report: &mut CheckReport) {
+    let described = Described::read(document);
+    let (grammar, number) = match described.version {
+        Version::Two => (include_str!("check/fmi2.txt"), "2.0"),
+        Version::Three => (include_str!("check/fmi3.txt"), "3.0"),
+    };
+    Grammar::read(grammar).check(document, PATH, "fmiModelDescription", report);
+    names::check(&described, report);
+    report
+        .done
+        .push(format!("FMI {number}: {} variables", described.variables.len()));
+    let libraries = binaries::check(&described, members, report);
+    let names: Vec<&str> = libraries.iter().map(|(platform, _)| platform.name()).collect();
+    report.done.push(format!(
+        "libraries for {}",
+        if names.is_empty() {
+            "no known system".into()
+        } else {
+            names.join(", ")
         }
-        if !(nominal.is_finite() && nominal > 0.0) {
-            return Err(Error::parameter(
-                format!("nominal value of {name}"),
-                nominal,
-                "finite and greater than 0",
-                "Give the size of a typical value.",
-            ));
-        }
-    }
-    if let Some(bytes) = variable.kind.start_bytes() {
-        check_start(variable, bytes)?;
-        return variable.check_bytes(bytes);
-    }
-    match variable.causality.is_settable() {
-        true => variable.check(variable.start()),
-        false => Ok(()),
+    ));
+    resources::check(&described, members, report);
+    let host = Platform::host().and_then(|host| libraries.iter().find(|(platform, _)| *platform == host));
+    match host {
+        Some((_, member)) => check_library(&described, member, members, report),
+        None => report
+            .left_out
+            .push("no library for this system: start values and dependencies are not compared".into()),
     }
 }
 
-/// The start value of a text stands in an attribute of the XML.
-fn check_start(variable: &Variable, bytes: &[u8]) -> Result<()> {
-    match &variable.kind {
-        Kind::Text { start } => check_text(&format!("start value of {}", variable.name), start),
-        Kind::Binary { mime_type, .. } => check_text(&format!("MIME type of {}", variable.name), mime_type),
-        _ => variable.check_bytes(bytes),
+fn check_library(described: &Described, member: &Member, members: &[Member], report: &mut CheckReport) {
+    let place = &member.path;
+    let component = match library::component(described, &member.bytes) {
+        Ok(component) => component,
+        Err(error) => return refused(place, error, report),
+    };
+    if !library::check_model(described, place, &component, report) {
+        return;
+    }
+    let table = reference::path(component.info());
+    if !members.iter().any(|member| member.path == table) {
+        report.fault(
+            &table,
+            "it is missing: the trajectory that replay compares with",
+            "Write the FMU anew.",
+        );
+    }
+    match library::check_starts(described, &component, report) {
+        Ok(count) => report
+            .done
+            .push(format!("start values: {count} compared with the library")),
+        Err(error) => return refused(place, error, report),
+    }
+    match dependencies::check(described, &component, report) {
+        Ok(line) => report.done.push(line),
+        Err(error) => refused(place, error, report),
+    }
+    if !component.contains_panics() {
+        let what = "it was built with panic = \"abort\": a panic of the model ends the importer's program";
+        report.fault(place, what, "Build it with panic = \"unwind\".");
     }
 }
 
-/// Checks that an array does not get the name of another variable of the FMU.
-///
-/// # Errors
-/// Two variables of one name.
-pub fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()> {
-    let mut known = std::collections::HashSet::new();
-    for name in names {
-        if !known.insert(name) {
-            return Err(Error::parameter(
-                "arrays",
-                name,
-                "one variable of each name",
-                "Rename the scalar variable, or bundle without arrays.",
-            ));
-        }
+fn refused(place: &str, error: Error, report: &mut CheckReport) {
+    match error {
+        Error::Call { what, remedy } => report.fault(place, what, remedy),
+        other => report.fault(place, other.to_string().trim_end_matches('.'), "Write the FMU anew."),
     }
-    Ok(())
 }

@@ -3,12 +3,15 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
+use fmi_component::description::Description;
 use fmi_component::handle::describe;
 use fmi_component::{
     Error, Kind, ModelInfo, ModelType, Result, StructuralParameters, Table, Variable, Version, arrays, token,
 };
 
-use crate::check::check;
+use crate::importer::{Instance, Library};
+use crate::legal::check;
+use crate::run::{Linked, Loaded, MEND, Run};
 
 /// Whose work the FMU is, and under which terms it may be used.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -45,10 +48,22 @@ pub struct Origin {
     pub changes: String,
 }
 
+/// Where the code of a model is.
+#[derive(Clone)]
+enum Source {
+    /// In this program.
+    Linked(ModelType),
+    /// In a library.
+    Loaded(Arc<Library>),
+}
+
 /// A model with its structural parameters and what its FMU is to hold besides.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Component {
-    model: ModelType,
+    source: Source,
+    events: bool,
+    input_parts: u32,
+    contains_panics: bool,
     info: ModelInfo,
     structure: StructuralParameters,
     table: Arc<Table>,
@@ -80,11 +95,51 @@ impl Component {
         let info = catch_defect("the facts of the model", model.info)?;
         let structure = StructuralParameters::choose(&info, structure)?;
         let variables = catch_defect("the variables of the model", || (model.variables)(&structure))?;
-        let table = Arc::new(Table::try_new(variables)?);
-        check(&info, table.variables())?;
-        Ok(Self {
-            model: *model,
+        let description = Description {
             info,
+            structure: structure.iter().map(|(_, value)| value).collect(),
+            variables,
+            events: model.events,
+            input_parts: model.input_parts,
+            contains_panics: true,
+        };
+        Self::described(Source::Linked(*model), description)
+    }
+
+    /// The component that the library `bytes` exports by `export_fmu!`, with these structural parameters: the library tells what its
+    /// model is, and is run for the reference trajectory and the documentation page. Everything else as by [`Component::new`],
+    /// which gives an FMU of the same bytes.
+    ///
+    /// # Errors
+    /// As of [`Component::new`]; the library is not for this system, or exports no model, or was built with a `fmi-component` whose
+    /// description has another format.
+    pub fn from_library(bytes: &[u8], structure: &[(&str, u32)]) -> Result<Self> {
+        Self::of_library(Arc::new(Library::load(bytes)?), structure)
+    }
+
+    /// As [`Component::from_library`], of a library that was loaded.
+    ///
+    /// # Errors
+    /// As there.
+    pub(crate) fn of_library(library: Arc<Library>, structure: &[(&str, u32)]) -> Result<Self> {
+        let choices: Vec<String> = structure
+            .iter()
+            .map(|(name, value)| format!("{name}={value}"))
+            .collect();
+        let description = library.describe(&choices.join("\n"))?;
+        Self::described(Source::Loaded(library), description)
+    }
+
+    fn described(source: Source, description: Description) -> Result<Self> {
+        let structure = description.structure()?;
+        let table = Arc::new(Table::try_new(description.variables)?);
+        check(&description.info, table.variables())?;
+        Ok(Self {
+            source,
+            events: description.events,
+            input_parts: description.input_parts,
+            contains_panics: description.contains_panics,
+            info: description.info,
             structure,
             table,
             arrays: false,
@@ -97,9 +152,60 @@ impl Component {
         })
     }
 
-    /// The model.
-    pub fn model(&self) -> &ModelType {
-        &self.model
+    /// The model, where it is linked with this program.
+    pub fn model(&self) -> Option<&ModelType> {
+        match &self.source {
+            Source::Linked(model) => Some(model),
+            Source::Loaded(_) => None,
+        }
+    }
+
+    /// Whether the model has events that an importer may stop at.
+    pub(crate) fn has_events(&self) -> bool {
+        self.events
+    }
+
+    /// Parts of a step between which an importer may set inputs; 0 for none.
+    pub(crate) fn input_parts(&self) -> u32 {
+        self.input_parts
+    }
+
+    /// Whether an importer may be called inside of a step.
+    pub(crate) fn updates_inside_steps(&self) -> bool {
+        self.events || self.input_parts > 0
+    }
+
+    /// Whether a panic of the model stays in its instance: not in a library that was built with `panic = "abort"`, which ends the
+    /// importer then.
+    pub fn contains_panics(&self) -> bool {
+        self.contains_panics
+    }
+
+    /// A run of the model, not started yet.
+    ///
+    /// # Errors
+    /// The library does not make an instance.
+    pub(crate) fn prepare(&self) -> Result<Box<dyn Run>> {
+        match &self.source {
+            Source::Linked(model) => Ok(Box::new(Linked((model.prepare)(self.structure.clone())))),
+            Source::Loaded(_) => Ok(Box::new(Loaded {
+                instance: self.instance(false)?,
+                table: self.table.clone(),
+                time: 0.0,
+            })),
+        }
+    }
+
+    /// An instance of the library, with array variables or not.
+    ///
+    /// # Errors
+    /// The library does not make one; the model is linked with this program.
+    pub(crate) fn instance(&self, arrays: bool) -> Result<Instance> {
+        let token = token::write(&self.info, &self.structure, self.table.variables(), arrays);
+        match &self.source {
+            Source::Loaded(library) => Instance::new(library.clone(), &token),
+            Source::Linked(_) => Err(Error::call("the model is in no library", "Make it of one.")),
+        }
     }
 
     /// Static facts of the model.
@@ -179,13 +285,18 @@ impl Component {
     }
 }
 
+impl std::fmt::Debug for Component {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "Component({})", self.token())
+    }
+}
+
 /// What `work` gives, which runs code of the model; a panic of it as an error.
 ///
 /// # Errors
 /// The model panics.
 pub(crate) fn catch_defect<T>(what: &str, work: impl FnOnce() -> T) -> Result<T> {
-    catch_unwind(AssertUnwindSafe(work))
-        .map_err(|panic| Error::call(format!("{what}: {}", describe(&*panic)), "The model has to be mended."))
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| Error::call(format!("{what}: {}", describe(&*panic)), MEND))
 }
 
 /// The nominal value of a real input.

@@ -123,7 +123,7 @@ impl Libraries {
     }
 
     /// The file of the library for `platform`.
-    pub(crate) fn path(&self, platform: Platform) -> Option<&Path> {
+    pub fn path(&self, platform: Platform) -> Option<&Path> {
         self.files.get(&platform).map(|(path, _)| path.as_path())
     }
 

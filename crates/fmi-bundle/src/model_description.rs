@@ -78,8 +78,8 @@ fn capabilities(component: &Component, version: Version) -> Attributes {
     let order = if offered(Causality::Output) { "1" } else { "0" };
     let flag = |is: bool| if is { "true" } else { "false" };
     let interpolates = flag(offered(Causality::Input));
-    let events = flag(component.model().events);
-    let updates = flag(component.model().updates_inside_steps());
+    let events = flag(component.has_events());
+    let updates = flag(component.updates_inside_steps());
     let flags: &[(&'static str, &str)] = match version {
         Version::Two => &[
             ("needsExecutionTool", "false"),

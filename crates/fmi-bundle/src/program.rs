@@ -7,9 +7,9 @@ use std::process::ExitCode;
 
 use fmi_component::{Error, Export, Model, ModelType, Result, Version};
 
-use crate::bundle::write;
 use crate::component::Component;
 use crate::libraries::Libraries;
+use crate::outputs::write_versions;
 
 const USAGE: &str = "\
 Writes the model as FMUs for FMI 2.0 and FMI 3.0 into the present folder.
@@ -109,20 +109,8 @@ fn write_all<M: Export>(asked: &Asked) -> Result<()> {
         (None, true) => vec![Version::Three],
         (None, false) => vec![Version::Two, Version::Three],
     };
-    for version in versions {
-        let (number, suffix) = match version {
-            Version::Two => ("2.0", "fmi2"),
-            Version::Three => ("3.0", "fmi3"),
-        };
-        let name = || PathBuf::from(format!("{identifier}.{suffix}.fmu"));
-        let out = asked.out.clone().unwrap_or_else(name);
-        write(&component, version, &libraries, &out)?;
-        let left_out = component.left_out(version);
-        let note = match left_out.is_empty() {
-            true => String::new(),
-            false => format!(", without {}, which are binary", left_out.join(", ")),
-        };
-        println!("{}: FMI {number}{note}", out.display());
+    for line in write_versions(&component, &versions, &libraries, asked.out.as_deref())? {
+        println!("{line}");
     }
     Ok(())
 }

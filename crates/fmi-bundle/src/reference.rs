@@ -8,9 +8,10 @@
 
 use std::f64::consts::TAU;
 
-use fmi_component::{Causality, DynSimulation, Error, Kind, ModelInfo, Result, Table, Value, Variable};
+use fmi_component::{Causality, Error, Kind, ModelInfo, Result, Table, Value, Variable};
 
 use crate::component::{Component, catch_defect};
+use crate::run::Run;
 
 /// Longest communication step \[s\].
 const LONGEST_STEP: f64 = 1.0 / 1024.0;
@@ -37,7 +38,8 @@ pub fn is_path(path: &str) -> bool {
 /// # Errors
 /// The table cannot be written; the model panics, which is a defect of it.
 pub fn record(component: &Component) -> Result<String> {
-    catch_defect("the reference trajectory", || run(component))?
+    const WHAT: &str = "the reference trajectory";
+    catch_defect(WHAT, || run(component))?.map_err(|error| within(WHAT, error))
 }
 
 fn run(component: &Component) -> Result<String> {
@@ -52,27 +54,33 @@ fn run(component: &Component) -> Result<String> {
         .chain(outputs.iter().map(name));
     writer.write_record(header).map_err(failed)?;
     let (steps, step, omega) = (steps(component), step(component), omega(component));
-    let mut simulation = (component.model().prepare)(component.structure().clone());
+    let mut simulation = component.prepare()?;
     // Inputs have their first values when a model starts, as importers give them.
     set_inputs(component, &mut *simulation, omega)?;
-    let mut advanced = simulation.start(0.0);
+    let mut refused = simulation.start(0.0)?;
     for _ in 0..=steps {
-        if advanced.is_err() {
+        if refused.is_some() {
             break;
         }
         let time = simulation.time();
         set_inputs(component, &mut *simulation, omega)?;
-        let values = inputs
-            .iter()
-            .chain(&outputs)
-            .map(|position| simulation.value(*position));
-        let values = [Ok(Value::Real(time))].into_iter().chain(values);
-        let texts = values.map(|value| value.map(text)).collect::<Result<Vec<_>>>()?;
+        let mut texts = vec![text(Value::Real(time))];
+        for position in inputs.iter().chain(&outputs) {
+            texts.push(text(simulation.value(*position)?));
+        }
         writer.write_record(texts).map_err(failed)?;
-        advanced = simulation.advance_to(time + step);
+        refused = simulation.advance_to(time + step)?;
     }
     let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// `error` with what was done when it came.
+pub(crate) fn within(what: &str, error: Error) -> Error {
+    match error {
+        Error::Call { what: why, remedy } if !why.starts_with(what) => Error::call(format!("{what}: {why}"), remedy),
+        other => other,
+    }
 }
 
 /// Number of communication steps.
@@ -133,7 +141,7 @@ pub(crate) fn chains(table: &Table) -> Vec<Vec<usize>> {
 
 /// Sets the inputs for the present time: a (1 - cos) where another input is the rate of this one, and its rates. Any other stays
 /// at its start value.
-pub(crate) fn set_inputs(component: &Component, simulation: &mut dyn DynSimulation, omega: f64) -> Result<()> {
+pub(crate) fn set_inputs(component: &Component, simulation: &mut dyn Run, omega: f64) -> Result<()> {
     let table = component.table();
     let phase = omega * simulation.time();
     let (sine, cosine) = (libm::sin(phase), libm::cos(phase));
@@ -147,7 +155,7 @@ pub(crate) fn set_inputs(component: &Component, simulation: &mut dyn DynSimulati
                 2 => cosine,
                 _ => -sine,
             };
-            simulation.set_at(position, Value::Real(amplitude * value))?;
+            simulation.set(position, amplitude * value)?;
             amplitude *= omega;
         }
     }

@@ -11,9 +11,10 @@ mod trajectory;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{Read, Seek};
 use std::path::Path;
+use std::sync::Arc;
 
 use fmi_component::{Error, Result};
 use zip::ZipArchive;
@@ -63,6 +64,38 @@ impl ReplayReport {
     pub fn passes(&self) -> bool {
         self.largest <= TOLERANCE
     }
+
+    /// One line: how much of `fmu` was compared, and how many values differ.
+    pub fn summary(&self, fmu: &Path) -> String {
+        format!(
+            "{}: {} values at {} times, {} differ in some bit",
+            fmu.display(),
+            self.values,
+            self.rows,
+            self.differing
+        )
+    }
+
+    /// One line on the greatest difference, if there is one.
+    ///
+    /// # Errors
+    /// It is greater than `allowed`, relative as [`TOLERANCE`].
+    pub fn judge(&self, fmu: &Path, allowed: f64) -> Result<Option<String>> {
+        let Some((name, time)) = &self.place else {
+            return Ok(None);
+        };
+        let largest = self.largest;
+        let what = format!("{name} differs by {largest:e} of its size at t = {time} s");
+        if largest <= allowed {
+            let within = "that another rounding of sines and exponentials may make";
+            return Ok(Some(match allowed == TOLERANCE {
+                true => format!("{what}, within the {TOLERANCE:e} {within}"),
+                false => format!("{what}, within the {allowed:e} that is allowed"),
+            }));
+        }
+        let remedy = "Is it the FMU as it was made, on a processor that rounds as IEEE 754 says?";
+        Err(Error::file(fmu, format!("{what}; allowed is {allowed:e}"), remedy))
+    }
 }
 
 /// Runs the library in `fmu` along its reference trajectory.
@@ -70,8 +103,22 @@ impl ReplayReport {
 /// # Errors
 /// The file is no FMU of this crate, has no library for this platform, or the library refuses a call.
 pub fn replay(fmu: &Path) -> Result<ReplayReport> {
+    replay_file(fmu, None)
+}
+
+/// Runs the library in `fmu` along another trajectory, the CSV file `reference`: its first column is `time` \[s\], the inputs in a row are
+/// set at its time, and every other column is compared with what the library has then.
+///
+/// # Errors
+/// As of [`replay()`]; the file is no such table.
+pub fn replay_against(fmu: &Path, reference: &Path) -> Result<ReplayReport> {
+    let bytes = fs::read(reference).map_err(|error| Error::file(reference, error, "Name a CSV file."))?;
+    replay_file(fmu, Some((reference.display().to_string(), bytes)))
+}
+
+fn replay_file(fmu: &Path, table: Option<(String, Vec<u8>)>) -> Result<ReplayReport> {
     let file = File::open(fmu).map_err(|error| Error::file(fmu, error, "Name an FMU."))?;
-    let report = replay_archive(file).and_then(|report| {
+    let report = replay_archive(file, table).and_then(|report| {
         report.ok_or_else(|| Error::call("it holds no trajectory: the model refuses its start values", MAKE_ANEW))
     });
     report.map_err(|error| match error {
@@ -80,16 +127,15 @@ pub fn replay(fmu: &Path) -> Result<ReplayReport> {
     })
 }
 
-/// As [`replay()`], of an FMU that need not be a file; none where the model refuses its start values.
+/// As [`replay()`], of an FMU that need not be a file, and along the trajectory in `given`, which has a name, if there is one; none
+/// where the model refuses its start values.
 ///
 /// # Errors
 /// As [`replay()`]. [`Error::Call`] is about the FMU and does not name it.
-pub fn replay_archive(fmu: impl Read + Seek) -> Result<Option<ReplayReport>> {
+pub fn replay_archive(fmu: impl Read + Seek, given: Option<(String, Vec<u8>)>) -> Result<Option<ReplayReport>> {
     let refused = |what: String| Error::call(what, MAKE_ANEW);
     let mut archive = ZipArchive::new(fmu).map_err(|error| refused(error.to_string()))?;
     let held: Vec<String> = archive.file_names().flatten().map(Cow::into_owned).collect();
-    let table = held.iter().find(|path| reference::is_path(path)).cloned();
-    let table = table.ok_or_else(|| refused("it holds no reference trajectory".into()))?;
     let mut member = |path: &str| {
         let mut bytes = Vec::new();
         let found = archive.by_name(path).map_err(|error| error.to_string());
@@ -100,12 +146,21 @@ pub fn replay_archive(fmu: impl Read + Seek) -> Result<Option<ReplayReport>> {
     };
     let description = Description::read(&String::from_utf8_lossy(&member("modelDescription.xml")?))
         .map_err(|error| refused(format!("modelDescription.xml: {error}")))?;
-    let trajectory = Trajectory::read(&member(&table)?).map_err(|error| refused(format!("{table}: {error}")))?;
+    let (table, bytes) = match given {
+        Some(given) => given,
+        None => {
+            let table = held.iter().find(|path| reference::is_path(path)).cloned();
+            let table = table.ok_or_else(|| refused("it holds no reference trajectory".into()))?;
+            let bytes = member(&table)?;
+            (table, bytes)
+        }
+    };
+    let trajectory = Trajectory::read(&bytes).map_err(|error| refused(format!("{table}: {error}")))?;
     let binary = member(&binary_path(&description, &held)?)?;
     let unknown = |name: &str| refused(format!("{table} names {name}, which modelDescription.xml does not"));
     let column = |name: &String| description.column(name).ok_or_else(|| unknown(name));
     let columns = trajectory.names[1..].iter().map(column).collect::<Result<Vec<_>>>()?;
-    let instance = Library::load(&binary)?.instantiate(&description.token)?;
+    let instance = Instance::new(Arc::new(Library::load(&binary)?), &description.token)?;
     if trajectory.rows.is_empty() {
         return Ok(None);
     }
@@ -148,7 +203,11 @@ fn binary_path(description: &Description, held: &[String]) -> Result<String> {
 fn compare(mut instance: Instance, table: &Trajectory, columns: &[Column]) -> Result<ReplayReport> {
     let (inputs, outputs): (Vec<_>, Vec<_>) = (1..table.names.len()).partition(|index| columns[index - 1].input);
     let first = inputs_of(&table.rows[0], &inputs, columns);
-    instance.initialize(table.rows[0][0], &first)?;
+    instance.enter_initialization(table.rows[0][0])?;
+    for (reference, values) in first {
+        instance.set(reference, &values)?;
+    }
+    instance.exit_initialization()?;
     let mut report = ReplayReport {
         rows: table.rows.len(),
         values: 0,

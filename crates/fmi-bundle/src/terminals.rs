@@ -200,7 +200,7 @@ mod tests {
         assert!(write(&component).unwrap().contains("<Icon "));
         let model = ModelType {
             variables: |_| vec![],
-            ..*component.model()
+            ..*component.model().unwrap()
         };
         let mut plain = Component::new(&model, &[]).unwrap();
         assert_eq!(write(&plain), None);

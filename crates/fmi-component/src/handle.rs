@@ -179,14 +179,14 @@ impl<T, const WORD: u64> Handle<T, WORD> {
     }
 }
 
+/// How the text of a panic begins.
+pub const DEFECT: &str = "internal defect, please report it";
+
 /// The text of a panic, for the caller to report.
 pub fn describe(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-    format!(
-        "internal defect, please report it: {}",
-        text.unwrap_or("panic without a message")
-    )
+    format!("{DEFECT}: {}", text.unwrap_or("panic without a message"))
 }
 
 #[cfg(test)]

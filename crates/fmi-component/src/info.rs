@@ -3,10 +3,12 @@
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
+use serde::{Deserialize, Serialize};
+
 use crate::sheet::DataSheet;
 
 /// Static facts of a model, for the model description and the documentation page.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ModelInfo {
     /// Name of the package that the model belongs to, such as `env!("CARGO_PKG_NAME")`.
     pub package: &'static str,
@@ -60,7 +62,7 @@ impl ModelInfo {
 }
 
 /// A structural parameter of a model with its range.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StructuralParameter {
     /// Name, such as `bodies`.
     pub name: &'static str,

@@ -3,10 +3,13 @@
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
+use serde::{Deserialize, Serialize};
+
+use crate::leaked::leaked;
 use crate::unit::Unit;
 
 /// What a variable holds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Kind {
     /// A continuous quantity in SI units.
     Real(Quantity),
@@ -29,6 +32,7 @@ pub enum Kind {
         /// Name of the type, such as `base_model`; variables of one type share it and the options.
         type_name: &'static str,
         /// Names of the options with one sentence each. No two names are equal.
+        #[serde(deserialize_with = "leaked")]
         options: &'static [(&'static str, &'static str)],
         /// Start value.
         start: i64,
@@ -64,7 +68,7 @@ pub enum Kind {
 }
 
 /// Size and sign of a whole number that is neither an `Int32` nor an `Int64` of FMI 3.0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum WholeSize {
     /// `Int8`
     Int8,
@@ -167,7 +171,8 @@ impl Kind {
 }
 
 /// Unit, range and start of a real variable.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(bound(deserialize = "'de: 'static"))] // texts stay where the bytes are
 pub struct Quantity {
     /// Unit.
     pub unit: Unit,

@@ -27,6 +27,7 @@ pub mod c_api;
 mod component;
 #[doc(hidden)]
 pub mod derived;
+pub mod description;
 mod dynamic;
 mod enumeration;
 pub mod error;
@@ -34,6 +35,7 @@ pub mod handle;
 mod info;
 pub mod instance;
 mod kind;
+mod leaked;
 pub mod life_cycle;
 mod listing;
 pub mod memory;

@@ -7,6 +7,8 @@
 use std::fmt;
 use std::ops::RangeInclusive;
 
+use serde::{Deserialize, Serialize};
+
 use crate::unit::Unit;
 use crate::value::Value;
 
@@ -14,14 +16,20 @@ use crate::value::Value;
 pub type RealOf<'a> = &'a dyn Fn(&str) -> f64;
 
 /// A quantity that several parameters make together, such as the peak acceleration of a sine over gravity.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 pub struct Derived {
     /// What it is, such as `peak acceleration over gravity`.
     pub name: &'static str,
     /// Its unit.
     pub unit: Unit,
-    /// Its value; the argument gives the real parameter of a name.
+    /// Its value; the argument gives the real parameter of a name. No number in a description that a library gave of itself.
+    #[serde(skip, default = "unknown")]
     pub value: fn(RealOf) -> f64,
+}
+
+/// A function does not travel.
+fn unknown() -> fn(RealOf) -> f64 {
+    |_| f64::NAN
 }
 
 // The function belongs to the name: addresses of functions say nothing.
@@ -38,7 +46,7 @@ impl fmt::Debug for Derived {
 }
 
 /// The recommended range of a parameter, or of a quantity that it has part in.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recommended {
     /// The quantity; `None` for the parameter itself.
     pub of: Option<Derived>,

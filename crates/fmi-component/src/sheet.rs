@@ -1,7 +1,11 @@
 //! What the data sheet of a model says besides its variables: the page `documentation/index.html` inside of its FMU.
 
+use serde::{Deserialize, Serialize};
+
+use crate::leaked::leaked;
+
 /// A symbol of the equations.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Symbol {
     /// HTML of the symbol.
     pub symbol: &'static str,
@@ -13,20 +17,21 @@ pub struct Symbol {
 }
 
 /// A run whose picture is on the page: from the start values, under the inputs of the reference trajectory.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ExampleRun {
     /// Duration \[s\].
     pub duration: f64,
     /// Communication steps, after each of which a point is drawn.
     pub steps: u32,
     /// Inputs and outputs that are drawn, one above the other; those that the model does not have are left out.
+    #[serde(deserialize_with = "leaked")]
     pub curves: &'static [&'static str],
     /// One sentence that says what is to be seen, HTML.
     pub about: &'static str,
 }
 
 /// The data sheet of a model. Whatever is empty is left out of the page.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DataSheet {
     /// What the model is for: some sentences of HTML.
     pub purpose: &'static str,

@@ -1,5 +1,7 @@
 //! Units of the variables: name, exponents of the SI base units, physical quantity and the unit in which people think.
 
+use serde::{Deserialize, Serialize};
+
 use crate::value::Value;
 
 /// A unit with all that a model description says of it.
@@ -10,7 +12,7 @@ use crate::value::Value;
 /// const VOLT: Unit = Unit::new("V", [1, 2, -3, -1, 0, 0, 0, 0]).of("ElectricPotential");
 /// assert_eq!(VOLT.name, "V");
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Unit {
     /// Name as written in the model description.
     pub name: &'static str,

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::{Error, Result};
 use crate::kind::Kind;
 use crate::recommended::Recommended;
@@ -11,7 +13,7 @@ use crate::value::Value;
 pub const TIME: &str = "time";
 
 /// Who sets a variable, and when (FMI 2.0 section 2.2.7, FMI 3.0 section 2.4.7.4).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Causality {
     /// Set by the user before initialisation ends, frozen from then on unless it is [tunable](Variable::tunable).
     Parameter,
@@ -66,7 +68,7 @@ impl Variability {
 }
 
 /// A variable's place in a terminal: the connector that FMI 3.0 describes in `terminalsAndIcons.xml`.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TerminalMember {
     /// Name of the terminal, such as `shaft`.
     pub terminal: &'static str,
@@ -75,7 +77,8 @@ pub struct TerminalMember {
 }
 
 /// All that is known of a variable but how its value is read: see [`Row`](crate::Row).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(bound(deserialize = "'de: 'static"))] // texts stay where the bytes are
 pub struct Variable {
     /// Structured name, such as `spring.stiffness` or `body.angle[3]` (counted from 1).
     pub name: String,

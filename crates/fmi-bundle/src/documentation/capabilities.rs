@@ -83,7 +83,7 @@ fn derivatives(component: &Component, version: Version) -> String {
 }
 
 fn events(component: &Component) -> String {
-    let text = match component.model().events {
+    let text = match component.has_events() {
         true => {
             "A step ends early at an event if the importer has event mode and allows early return. The event is handled by then; event \
              mode is for what the importer does about it."
@@ -94,8 +94,7 @@ fn events(component: &Component) -> String {
 }
 
 fn inside_of_steps(component: &Component) -> String {
-    let model = component.model();
-    let text = match (model.events, model.input_parts) {
+    let text = match (component.has_events(), component.input_parts()) {
         (_, parts) if parts > 0 => {
             format!(
                 "The callback comes after each of {parts} equal parts of a step and may set inputs, read all variables and end the step."

@@ -1,11 +1,12 @@
 //! The run whose picture is on the page, and the program that does it again.
 
-use fmi_component::{Causality, DynSimulation, ExampleRun, Kind, Result, Value, Variable};
+use fmi_component::{Causality, ExampleRun, Kind, Result, Value, Variable};
 use quick_xml::escape::escape;
 
 use super::curves::{Curve, draw};
 use crate::component::{Component, catch_defect};
 use crate::reference;
+use crate::run::Run;
 
 /// Curves of a model that names none: so many inputs and so many outputs.
 const CURVES: usize = 2;
@@ -136,23 +137,23 @@ fn record(component: &Component, run: &ExampleRun, shown: &[usize]) -> Result<Re
         curves: shown.iter().map(curve).collect(),
         refused: None,
     };
-    let mut simulation = (component.model().prepare)(component.structure().clone());
+    let mut simulation = component.prepare()?;
     reference::set_inputs(component, &mut *simulation, omega)?; // as the program of the page does
-    let mut advanced = simulation.start(0.0);
+    let mut refused = simulation.start(0.0)?;
     for count in 1..=run.steps + 1 {
-        if let Err(error) = advanced {
-            recorded.refused = Some(error.to_string());
+        if refused.is_some() {
+            recorded.refused = refused;
             break;
         }
         reference::set_inputs(component, &mut *simulation, omega)?;
-        sample(&*simulation, shown, &mut recorded)?;
+        sample(&mut *simulation, shown, &mut recorded)?;
         // Never a running sum: the program of the page has the same times.
-        advanced = simulation.advance_to(run.duration * (f64::from(count) / f64::from(run.steps)));
+        refused = simulation.advance_to(run.duration * (f64::from(count) / f64::from(run.steps)))?;
     }
     Ok(recorded)
 }
 
-fn sample(simulation: &dyn DynSimulation, shown: &[usize], recorded: &mut Recorded) -> Result<()> {
+fn sample(simulation: &mut dyn Run, shown: &[usize], recorded: &mut Recorded) -> Result<()> {
     recorded.times.push(simulation.time());
     for (position, curve) in shown.iter().zip(&mut recorded.curves) {
         curve.values.push(match simulation.value(*position)? {

@@ -41,7 +41,7 @@ fn write_variable(xml: &mut Xml, layout: &Layout<'_>, position: usize) -> io::Re
             layout.component.table().variability(position).word().into(),
         ),
     ];
-    let inside = layout.component.model().input_parts > 0 && variable.causality == Causality::Input;
+    let inside = layout.component.input_parts() > 0 && variable.causality == Causality::Input;
     if inside && layout.version == Version::Three {
         about.push(("intermediateUpdate", "true".into()));
     }

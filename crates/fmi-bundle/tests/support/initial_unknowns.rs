@@ -201,7 +201,7 @@ fn observed(component: &Component, trials: &Trials) -> Lists {
         }
     };
     let mut random = Pcg64::seed_from_u64(7);
-    let mut simulation = (component.model().prepare)(component.structure().clone());
+    let mut simulation = (component.model().unwrap().prepare)(component.structure().clone());
     let mut run = |time: f64, values: &[Value]| outputs(&mut *simulation, time, values);
     let mut accepted = 0;
     for number in 0..TRIES {

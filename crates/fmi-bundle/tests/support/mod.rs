@@ -11,6 +11,7 @@ use oscillators::Oscillators;
 
 pub const MODEL: ModelType = ModelType::of::<Oscillators>();
 
+#[allow(dead_code)] // not each of the tests needs it
 pub fn component() -> Component {
     let mut component = Component::new(&MODEL, &[]).unwrap();
     component.notices = Notices {

@@ -2,6 +2,9 @@
 
 /// Exports a [`Model`](crate::Model) or a struct with [`#[derive(Component)]`](derive@crate::Component) as the 44 functions of FMI 2.0 and the 75 of FMI 3.0.
 ///
+/// Besides, the library gets `fmi_component_describe`, by which programs that write FMUs ask it for its variables: see
+/// [`c_api::description`](crate::c_api::description).
+///
 /// Use it once in a crate of type `cdylib`. The functions are in the modules `fmi2` and `fmi3` of that crate, too. All but the
 /// making of an instance call functions of this crate that are the same for every model. A static of type
 /// [`ModelType`](crate::ModelType) is exported by `export_fmu!(dyn &NAME)`: a model of another crate is then compiled there alone.
@@ -10,6 +13,7 @@ macro_rules! export_fmu {
     (dyn $model:expr) => {
         $crate::export_fmi2!($model);
         $crate::export_fmi3!($model);
+        $crate::__export_description!($model);
     };
     ($model:ty) => {
         $crate::export_fmu!(dyn &$crate::ModelType::of::<<$model as $crate::Export>::Model>());

@@ -10,6 +10,7 @@
 pub mod calls;
 mod component;
 pub mod contents;
+pub mod description;
 pub mod fmi2;
 pub mod fmi3;
 mod listener;

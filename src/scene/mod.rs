@@ -34,6 +34,7 @@ mod recipe;
 mod recommended;
 mod sheet;
 pub mod soft_disks;
+mod threads;
 pub mod wedge;
 mod work_limit;
 

@@ -9,10 +9,12 @@ mod contact_list;
 pub(super) mod contacts;
 mod disk_ranges;
 mod eights;
+mod evaluation;
 mod force_sums;
 mod forces;
 mod gear;
 mod integrator;
+mod list_building;
 mod moved_disks;
 mod neighbour_list;
 mod shared_forces;
@@ -33,7 +35,6 @@ use crate::error::are_sane;
 use crate::geometry::Disk;
 
 use super::candidates;
-use super::cell_grid::Cloud;
 use super::fixed_grid::{GridState, Stepper};
 use super::setup::{Breakdown, SoftDiskSetup, SoftDisks};
 
@@ -44,14 +45,10 @@ pub use integrator::{Constants, Coordinates, Integrator, VelocityVerlet};
 pub use state::Disks;
 
 use closed_contacts::Closed;
-use contact_kinds::{DiskArrays, ForceArrays, MovingWalls};
-use eights::Eights;
-use force_sums::{ForceSums, PartialSums};
-use forces::{AddForces, Workspace};
-use neighbour_list::{NeighbourList, inner_margin};
-use shared_forces::{PairForces, Shares};
-use shared_motion::{Advance, ArcLengths, Farthest, Fastest};
-use shared_walls::NearWalls;
+use forces::Workspace;
+use neighbour_list::NeighbourList;
+use shared_forces::Shares;
+use shared_motion::Advance;
 
 /// Steps by the integrator I, with the normal force N, on the threads T.
 #[derive(Debug, Clone)]
@@ -332,128 +329,6 @@ impl<I: Integrator, N: NormalForce, T: Threads> PredictorCorrector<I, N, T> {
         disks.dissipated_power = sums.dissipated_power;
         state.contacts = sums.contacts;
         Ok(())
-    }
-
-    /// Forces at the present positions, velocities and base motion, into `self.force`, with the arcs of the present angles if
-    /// `has_arcs`. Compiled with tangential springs and
-    /// without, so that the loops hold no branch on it.
-    fn evaluate<D>(&mut self, state: &mut GridState<D, Disks>, duration: f64, has_arcs: bool) -> ForceSums {
-        if self.constants.setup.laws.tangential.acts() {
-            if !has_arcs {
-                self.measure_arcs(&state.disks);
-            }
-            self.evaluate_with::<true>(&mut state.disks, state.base, duration, state.contacts)
-        } else {
-            self.evaluate_with::<false>(&mut state.disks, state.base, duration, state.contacts)
-        }
-    }
-
-    fn measure_arcs(&mut self, disks: &Disks) {
-        let radii = &self.constants.radii;
-        let arcs = ArcLengths {
-            arc_lengths: &mut self.arc_lengths,
-            radii,
-            positions: &disks.positions()[..radii.len()],
-        };
-        share(&self.threads, arcs);
-    }
-
-    #[inline(never)]
-    fn evaluate_with<const SPRING: bool>(
-        &mut self,
-        disks: &mut Disks,
-        base: Motion,
-        duration: f64,
-        closed_before: u32,
-    ) -> ForceSums {
-        let (setup, radii) = (&self.constants.setup, &self.constants.radii);
-        let (on_disks, from_walls) = self.force.split_at_mut(3 * radii.len());
-        let from_walls = from_walls.as_chunks_mut().0;
-        let (positions, velocities) = (disks.position.as_chunks().0, disks.velocity.as_chunks().0);
-        let arrays = DiskArrays::new(positions, velocities, radii, &self.arc_lengths);
-        let on_disks = on_disks.as_chunks_mut().0;
-        let mut before = PartialSums::default();
-        let mut pairs = disks.pairs.eights_mut();
-        if self.threads.count() > 1 {
-            let of = PairForces {
-                laws: setup.laws,
-                step: duration,
-                disks: arrays,
-            };
-            let shares = &mut self.shares;
-            before = shares.add_forces::<N, SPRING>(&self.threads, of, &mut disks.pairs, on_disks);
-            pairs = Eights::default();
-        }
-        let sums = forces::add(AddForces::<N, SPRING> {
-            laws: &setup.laws,
-            step: duration,
-            disks: arrays,
-            walls: MovingWalls {
-                walls: &setup.walls,
-                base,
-            },
-            pairs,
-            wall_contacts: disks.wall_contacts.eights_mut(),
-            closed: closed_before,
-            before,
-            forces: ForceArrays { on_disks, from_walls },
-            workspace: &mut self.workspace,
-        });
-        let vertical = from_walls.iter().zip(&setup.walls);
-        disks.base_force = vertical.map(|(force, wall)| wall.follows_base * force[1]).sum();
-        sums
-    }
-
-    /// Builds the neighbour list anew if a disk or the base has moved by half the margin since it was built.
-    fn build_list_if_due<D: Drive>(
-        &mut self,
-        state: &mut GridState<D, Disks>,
-        time: f64,
-        farthest: Option<f64>,
-    ) -> Result<(), Breakdown> {
-        let disks = &state.disks;
-        let then = &disks.positions_at_list_build;
-        let now = &disks.positions()[..then.len()];
-        let farthest = farthest.unwrap_or_else(|| share(&self.threads, Farthest { now, then }));
-        let base_moved = (state.base.displacement - disks.base_at_list_build).abs();
-        let limit = 0.5 * disks.list_margin;
-        if farthest < limit * limit && base_moved < limit {
-            return Ok(());
-        }
-        if state.steps <= disks.step_of_list_build + 1 {
-            self.constants.check_distance(farthest.sqrt(), time)?;
-        }
-        self.build_list(state);
-        Ok(())
-    }
-
-    fn build_list<D: Drive>(&mut self, state: &mut GridState<D, Disks>) {
-        let (count, setup) = (self.constants.radii.len(), &self.constants.setup);
-        let disks = &mut state.disks;
-        disks.positions_at_list_build.clear();
-        let positions = &disks.position.as_chunks().0[..count];
-        disks.positions_at_list_build.extend_from_slice(positions);
-        disks.base_at_list_build = state.base.displacement;
-        disks.step_of_list_build = state.steps;
-        let fastest = share(&self.threads, Fastest(&disks.velocities()[..count]));
-        let fastest = fastest.sqrt().max(state.base.velocity.abs());
-        disks.list_margin = inner_margin(fastest, setup.time_step, self.constants.smallest_radius);
-        let cloud = Cloud {
-            positions: &disks.positions_at_list_build,
-            radii: &self.constants.radii,
-            margin: disks.list_margin,
-        };
-        self.neighbours.find_pairs(&self.threads, cloud, &mut disks.pairs);
-        let walls = NearWalls {
-            cloud,
-            walls: &setup.walls,
-            base: disks.base_at_list_build,
-        };
-        self.neighbours
-            .find_wall_contacts(&self.threads, walls, &mut disks.wall_contacts);
-        self.drop_contacts_of_the_floor::<D>(disks);
-        // A closed contact whose disks have jumped apart is not in the list any more.
-        state.contacts = disks.closed_contacts();
     }
 }
 

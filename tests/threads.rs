@@ -88,7 +88,7 @@ fn run(count: usize, friction: f64, threads: usize) -> Run {
     let state = packing.state();
     Run {
         list_builds,
-        pairs: state.disks.pairs.len(),
+        pairs: state.disks.pairs.count(),
         contacts: state.contacts,
         state: postcard::to_stdvec(state).unwrap(),
     }

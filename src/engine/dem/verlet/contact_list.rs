@@ -156,7 +156,7 @@ impl<C: Listed> ContactList<C> {
     }
 
     /// How many there are.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.count
     }
 

@@ -78,7 +78,7 @@ impl DiskRange {
         let own = pairs.places_of(self.disks.clone());
         // The last group of the list may be shorter than others: it is whole if it ends with the list.
         let first = own.start.div_ceil(GROUP_PLACES);
-        let last = match own.end == pairs.len() {
+        let last = match own.end == pairs.count() {
             true => own.end.div_ceil(GROUP_PLACES),
             false => own.end / GROUP_PLACES,
         };

@@ -86,7 +86,7 @@ impl Shares {
             return;
         }
         self.edition = pairs.edition();
-        let groups = pairs.len().div_ceil(GROUP_PLACES);
+        let groups = pairs.count().div_ceil(GROUP_PLACES);
         self.found.resize(groups * GROUP, Found::default());
         self.sums.resize(groups, PartialSums::default());
         self.ranges

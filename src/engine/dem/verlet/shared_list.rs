@@ -193,7 +193,7 @@ impl Divisible for Renew<'_> {
         };
         let mut fresh = self.near.from(self.start);
         let mut old = self.former.partition_point(|bodies| bodies < first.0);
-        let (mut last, count) = (first.0, self.former.len());
+        let (mut last, count) = (first.0, self.former.count());
         for (n, eight) in self.eights.iter_mut().enumerate() {
             eight.springs = EightSprings::default();
             for k in 0..MOST_LANES {

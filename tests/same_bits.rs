@@ -36,7 +36,10 @@ fn checksum(simulation: &mut dyn DynSimulation) -> u32 {
         set(simulation, "base.displacement", AMPLITUDE * (1.0 - cos(phase)));
         set(simulation, "base.velocity", AMPLITUDE * OMEGA * sin(phase));
         simulation.advance_to(f64::from(n + 1) * STEP).unwrap();
-        for position in 0..simulation.values().table().variables().len() {
+        let table = simulation.values().table().clone();
+        // All but how it is computed.
+        let rows = table.variables().iter().enumerate();
+        for (position, _) in rows.filter(|(_, row)| !row.outside_states) {
             match simulation.value(position).unwrap() {
                 Value::Real(real) => hasher.update(&real.to_bits().to_le_bytes()),
                 Value::Integer(integer) => hasher.update(&integer.to_le_bytes()),

@@ -6,6 +6,7 @@ mod disk_motion;
 pub mod disk_on_two_supports;
 pub mod event_driven;
 mod interruption;
+pub mod threads;
 pub mod wedge;
 pub mod work_budget;
 

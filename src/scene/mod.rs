@@ -35,6 +35,7 @@ mod recipe;
 mod recommended;
 mod sheet;
 pub mod soft_disks;
+mod threads;
 pub mod wedge;
 mod work_limit;
 

@@ -22,13 +22,14 @@ use crate::contact::LinearDashpot;
 use crate::drive::{FixedBottom, FollowsInput, RandomBottom, Sine};
 use crate::engine::dem::event_located::EventStepper;
 use crate::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
+use crate::engine::threads::ThreadPool;
 use crate::measure::Rotation;
 use crate::scene::disks_on_base::StepReport;
 
 pub use soft_packing::SoftPacking;
 
 /// Packing of soft disks by velocity Verlet, on a base that moves with the drive D, with the normal force N.
-pub type PackingOn<D, N = LinearDashpot> = SoftPacking<PredictorCorrector<VelocityVerlet, N>, D>;
+pub type PackingOn<D, N = LinearDashpot> = SoftPacking<PredictorCorrector<VelocityVerlet, N, ThreadPool>, D>;
 /// The base follows the inputs `base.displacement` and `base.velocity`.
 pub type PackingOnInput = PackingOn<FollowsInput>;
 /// The base moves as a sine.

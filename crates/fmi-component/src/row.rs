@@ -242,6 +242,14 @@ impl<M> Row<M> {
         self
     }
 
+    /// The same parameter, which says how the model computes and changes no result: saved states do not bring it along, so that one
+    /// that is restored leaves it as it is.
+    #[must_use]
+    pub fn outside_states(mut self) -> Self {
+        self.variable.outside_states = true;
+        self
+    }
+
     /// The same real input or output, which changes at events or between steps alone.
     #[must_use]
     pub fn discrete(mut self) -> Self {
@@ -325,6 +333,7 @@ impl<M> Row<M> {
             causality,
             kind,
             tunable: false,
+            outside_states: false,
             discrete: false,
             dependencies: None,
             derivative: None,

@@ -91,6 +91,8 @@ pub struct Variable {
     /// A parameter that may change between steps too: the model takes it over at the beginning of the next step
     /// ([`Model::tune`](crate::Model::tune)).
     pub tunable: bool,
+    /// A fixed parameter that says how the model computes and changes no result: restoring a state leaves it as it is.
+    pub outside_states: bool,
     /// An input or output that changes at events or between steps alone, although it is a real.
     pub discrete: bool,
     /// Parameters, inputs and [`TIME`] that a computed variable depends on while the component is initialised. `None` says that

@@ -384,6 +384,7 @@ fn recommended_ranges_are_no_part_of_the_fingerprint() {
         .iter()
         .cloned()
         .map(|variable| Variable {
+            outside_states: false,
             recommended: None,
             ..variable
         })

@@ -1,5 +1,7 @@
 //! Renewal of a sorted list of candidates for contact, in which closed contacts keep their memory.
 
+use std::ops::Range;
+
 use crate::geometry::Wall;
 
 use super::cell_grid::Cloud;
@@ -37,9 +39,14 @@ pub fn renew<C: Candidate>(list: &mut Vec<C>, scratch: &mut Vec<C>, fresh: impl 
     std::mem::swap(list, scratch);
 }
 
-/// Indices of all disks and walls whose gap is less than the margin, in order.
-pub fn near_walls<'a>(cloud: Cloud<'a>, walls: &'a [Wall], base: f64) -> impl Iterator<Item = [u32; 2]> + 'a {
-    (0..cloud.radii.len()).flat_map(move |disk| {
+/// Indices of all of these disks and of walls whose gap is less than the margin, in order.
+pub fn near_walls<'a>(
+    cloud: Cloud<'a>,
+    walls: &'a [Wall],
+    base: f64,
+    disks: Range<usize>,
+) -> impl Iterator<Item = [u32; 2]> + 'a {
+    disks.flat_map(move |disk| {
         let [x, y, _] = cloud.positions[disk];
         let range = cloud.radii[disk] + cloud.margin;
         let near = walls.iter().enumerate();

@@ -1,5 +1,9 @@
 //! All pairs of disks that are closer than a margin, by a grid of cells.
 
+use std::ops::Range;
+
+use crate::engine::threads::{Divisible, Threads, share};
+
 /// Disks sorted into cells by counting. Scratch memory: nothing in it outlives a search.
 #[derive(Debug, Clone, Default)]
 pub struct CellGrid {
@@ -11,6 +15,18 @@ pub struct CellGrid {
     starts: Vec<u32>,
     members: Vec<u32>,
     near: Vec<u32>,
+    /// What several threads find, each part for so many disks.
+    parts: Vec<Part>,
+}
+
+/// Disks of a part that several threads search.
+const PART: usize = 512;
+
+/// Pairs that one part of the disks has.
+#[derive(Debug, Clone, Default)]
+struct Part {
+    near: Vec<u32>,
+    pairs: Vec<[u32; 2]>,
 }
 
 /// Disks of which neighbours are searched.
@@ -26,14 +42,35 @@ pub struct Cloud<'a> {
 
 impl CellGrid {
     /// Replaces `pairs` by the indices of all pairs whose gap is less than the margin, in order.
-    pub fn find(&mut self, cloud: Cloud<'_>, pairs: &mut Vec<[u32; 2]>) {
+    pub fn find(&mut self, threads: &impl Threads, cloud: Cloud<'_>, pairs: &mut Vec<[u32; 2]>) {
         self.sort_into_cells(cloud);
-        self.near.clear();
-        self.near.reserve(cloud.positions.len());
+        let disks = cloud.positions.len();
         pairs.clear();
-        for first in 0..cloud.positions.len() {
-            self.collect_near(cloud, first);
-            pairs.extend(self.near.iter().map(|&second| [first as u32, second]));
+        if threads.count() == 1 {
+            let mut near = std::mem::take(&mut self.near);
+            near.reserve(disks);
+            self.find_of(cloud, 0..disks, &mut near, pairs);
+            self.near = near;
+            return;
+        }
+        let mut parts = std::mem::take(&mut self.parts);
+        parts.resize(disks.div_ceil(PART), Part::default());
+        let search = Search {
+            grid: self,
+            cloud,
+            first: 0,
+            parts: &mut parts,
+        };
+        share(threads, search);
+        parts.iter().for_each(|part| pairs.extend_from_slice(&part.pairs));
+        self.parts = parts;
+    }
+
+    /// Adds the pairs of which the first is one of these `disks`.
+    fn find_of(&self, cloud: Cloud<'_>, disks: Range<usize>, near: &mut Vec<u32>, pairs: &mut Vec<[u32; 2]>) {
+        for first in disks {
+            self.collect_near(cloud, first, near);
+            pairs.extend(near.iter().map(|&second| [first as u32, second]));
         }
     }
 
@@ -84,9 +121,9 @@ impl CellGrid {
         }
     }
 
-    /// Fills `near` with the disks after `first`, in order, whose gap to it is less than the margin.
-    fn collect_near(&mut self, cloud: Cloud<'_>, first: usize) {
-        self.near.clear();
+    /// Replaces `near` by the disks after `first`, in order, whose gap to it is less than the margin.
+    fn collect_near(&self, cloud: Cloud<'_>, first: usize, near: &mut Vec<u32>) {
+        near.clear();
         let [x, y, _] = cloud.positions[first];
         let cell = self.cell_of[first] as usize;
         let (row, column) = (cell / self.columns, cell % self.columns);
@@ -99,17 +136,57 @@ impl CellGrid {
                 let range = cloud.radii[first] + cloud.radii[other] + cloud.margin;
                 let (dx, dy) = (x - cloud.positions[other][0], y - cloud.positions[other][1]);
                 if other > first && dx * dx + dy * dy < range * range {
-                    self.near.push(second);
+                    near.push(second);
                 }
             }
         }
-        self.near.sort_unstable();
+        near.sort_unstable();
     }
+}
+
+/// Parts of the disks whose pairs are searched.
+struct Search<'a> {
+    grid: &'a CellGrid,
+    cloud: Cloud<'a>,
+    /// Number of the first part.
+    first: usize,
+    parts: &'a mut [Part],
+}
+
+impl Divisible for Search<'_> {
+    type Output = ();
+
+    fn units(&self) -> usize {
+        self.parts.len()
+    }
+
+    fn split_at(self, units: usize) -> (Self, Self) {
+        let (parts, parts_after) = self.parts.split_at_mut(units);
+        let one = Self { parts, ..self };
+        let other = Self {
+            first: one.first + units,
+            parts: parts_after,
+            ..one
+        };
+        (one, other)
+    }
+
+    fn run(self) {
+        let count = self.cloud.positions.len();
+        for (n, Part { near, pairs }) in (self.first..).zip(self.parts) {
+            pairs.clear();
+            self.grid
+                .find_of(self.cloud, n * PART..((n + 1) * PART).min(count), near, pairs);
+        }
+    }
+
+    fn merged((): (), (): ()) {}
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::threads::OneThread;
 
     /// A step may throw disks to infinity before it is refused.
     #[test]
@@ -129,7 +206,7 @@ mod tests {
                     radii: &radii,
                     margin,
                 };
-                CellGrid::default().find(cloud, &mut pairs);
+                CellGrid::default().find(&OneThread, cloud, &mut pairs);
                 assert!(
                     pairs.iter().all(|pair| pair[0] > 0 || place[0] == 1e300),
                     "{places:?}: {pairs:?}"

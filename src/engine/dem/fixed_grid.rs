@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::NormalForce;
 use crate::drive::{Drive, Motion};
+use crate::engine::threads::Threads;
 use crate::engine::{ContactNow, Engine, WorkBudget};
 use crate::error::are_sane;
 use crate::geometry::Disk;
@@ -59,6 +60,8 @@ impl<D: Clone, M: Clone> Clone for GridState<D, M> {
 pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
     /// Normal force of its contacts.
     type Normal: NormalForce;
+    /// Threads that its steps can use.
+    type Threads: Threads;
     /// Disks and their contacts: what changes with time beside the base.
     type Disks: std::fmt::Debug + Clone + PartialEq + Serialize + DeserializeOwned + Send + 'static;
 
@@ -67,6 +70,9 @@ pub trait Stepper: Sized + std::fmt::Debug + Clone + Send + 'static {
 
     /// `disks` at rest, without contacts yet.
     fn at_rest(setup: SoftDiskSetup<Self::Normal>, disks: &[Disk]) -> (Self, Self::Disks);
+
+    /// Shares the work of the steps to come among `threads`; no bit depends on them.
+    fn use_threads(&mut self, threads: Self::Threads);
 
     /// What stays constant.
     fn constants(&self) -> &SoftDisks<Self::Normal>;
@@ -178,6 +184,11 @@ impl<S: Stepper, D: Drive> FixedGrid<S, D> {
             backup: copy(),
             state,
         }
+    }
+
+    /// Shares the work of the steps to come among `threads`; no bit depends on them.
+    pub fn use_threads(&mut self, threads: S::Threads) {
+        self.stepper.use_threads(threads);
     }
 
     /// Changes positions and velocities from outside (initial states of tests and studies) and starts afresh from there.

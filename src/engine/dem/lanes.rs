@@ -81,6 +81,11 @@ impl EightSums {
         (V::from_slice(lanes.token(), parts) + lanes).store_slice(parts);
     }
 
+    /// Adds other parts, each to its own.
+    pub fn add_all(&mut self, other: &Self) {
+        self.0.iter_mut().zip(other.0).for_each(|(part, other)| *part += other);
+    }
+
     /// All parts together.
     pub fn total(&self) -> f64 {
         let [a, b, c, d, e, f, g, h] = self.0;

@@ -14,6 +14,7 @@ use crate::elementary::hypot;
 use crate::engine::Engine;
 use crate::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
 use crate::engine::dem::{Breakdown, FixedGrid, SoftDiskSetup, TimeStepLimits};
+use crate::engine::threads::{OneThread, Threads};
 use crate::geometry::{Disk, Wall};
 use crate::scene::soft_disks::refused_step;
 use crate::scene::{Error, Result, Row, Values, Warning};
@@ -55,12 +56,12 @@ pub struct Settled {
 ///
 /// # Errors
 /// Contacts that do not carry the packing.
-pub fn soft<N: NormalForce>(disks: Vec<Disk>, normal: N, values: &Values) -> Result<Settled> {
+pub fn soft<N: NormalForce, T: Threads>(threads: &T, disks: Vec<Disk>, normal: N, values: &Values) -> Result<Settled> {
     if !is_wanted(values) {
         return Ok(Settled { disks, warning: None });
     }
     let masses = initial_packing::masses(&disks, values);
-    relaxed(disks, masses, normal, AT_REST, values)
+    relaxed(threads, disks, masses, normal, AT_REST, values)
 }
 
 /// Gap of neighbours at the start over the sum of their radii: hard disks that touch have no next impact.
@@ -102,7 +103,7 @@ pub fn hard(disks: Vec<Disk>, values: &Values) -> Result<Settled> {
         ..*disk
     };
     let inflated = disks.iter().map(|disk| scaled(disk, 1.0 + WIDER_GAP)).collect();
-    let mut settled = relaxed(inflated, masses, normal, HARD_AT_REST, values)?;
+    let mut settled = relaxed(&OneThread, inflated, masses, normal, HARD_AT_REST, values)?;
     for (place, disk) in settled.disks.iter_mut().zip(&disks) {
         place.radius = disk.radius;
     }
@@ -134,7 +135,8 @@ fn gaps_are_open(disks: &[Disk], walls: &[Wall]) -> bool {
     })
 }
 
-fn relaxed<N: NormalForce>(
+fn relaxed<N: NormalForce, T: Threads>(
+    threads: &T,
     disks: Vec<Disk>,
     masses: Vec<f64>,
     normal: N,
@@ -165,7 +167,8 @@ fn relaxed<N: NormalForce>(
         start_time: 0.0,
     };
     let base = FollowsInput::uniform(0.0, 0.0, 0.0);
-    let mut engine = FixedGrid::<PredictorCorrector<VelocityVerlet, N>, _>::new(setup, &disks, base);
+    let mut engine = FixedGrid::<PredictorCorrector<VelocityVerlet, N, T>, _>::new(setup, &disks, base);
+    engine.use_threads(threads.clone());
     let most = MOST_STEPS.min(MOST_DISK_STEPS / disks.len() as f64);
     let (mut steps, mut before, mut is_at_rest) = (0.0, 0.0, false);
     while !is_at_rest && steps < most {

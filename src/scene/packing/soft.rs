@@ -4,8 +4,9 @@ use crate::contact::ContactLaws;
 use crate::engine::dem::event_located::EventStepper;
 use crate::engine::dem::verlet::{Integrator, PredictorCorrector};
 use crate::engine::dem::{Stepper, TimeStepLimits};
+use crate::engine::threads::{OneThread, ThreadPool};
 use crate::scene::soft_disks::SceneNormalForce;
-use crate::scene::{Row, Unit, Values};
+use crate::scene::{Result, Row, Unit, Values, threads};
 
 use super::rows;
 
@@ -18,8 +19,14 @@ pub trait SoftMethod: Stepper<Normal: SceneNormalForce> {
     /// One sentence.
     const DESCRIPTION: &'static str;
 
-    /// Parameters that choose the time step.
+    /// Parameters that choose the time step and the threads.
     fn parameters<M>() -> Vec<Row<M>>;
+
+    /// The threads that `values` ask for, for so many disks.
+    ///
+    /// # Errors
+    /// The system starts no more threads.
+    fn threads(disks: usize, values: &Values) -> Result<Self::Threads>;
 
     /// Time steps for these contacts and the tolerance among `values`.
     fn limits(
@@ -30,16 +37,19 @@ pub trait SoftMethod: Stepper<Normal: SceneNormalForce> {
     ) -> TimeStepLimits;
 }
 
-impl<I: Integrator, N: SceneNormalForce> SoftMethod for PredictorCorrector<I, N> {
+impl<I: Integrator, N: SceneNormalForce> SoftMethod for PredictorCorrector<I, N, ThreadPool> {
     const NAME: &'static str = N::ENGINE;
     const IDENTIFIER: &'static str = N::PACKING;
     const DESCRIPTION: &'static str = "Packing of frictional disks on a vibrating bottom between side walls that stand still unless wall.motion says otherwise, by \
          molecular dynamics";
 
     fn parameters<M>() -> Vec<Row<M>> {
-        vec![rows::time_step(
-            "Time step of the integration; 0: a hundredth of the shortest contact period",
-        )]
+        let time_step = rows::time_step("Time step of the integration; 0: a hundredth of the shortest contact period");
+        vec![time_step, threads::row()]
+    }
+
+    fn threads(disks: usize, values: &Values) -> Result<ThreadPool> {
+        threads::pool(disks, values)
     }
 
     fn limits(laws: &ContactLaws<N>, masses: &[f64], frequency: Option<f64>, _values: &Values) -> TimeStepLimits {
@@ -63,6 +73,10 @@ impl SoftMethod for EventStepper {
         );
         let time_step = rows::time_step("Time step of the integration; 0: chosen by the tolerance");
         vec![tolerance, time_step]
+    }
+
+    fn threads(_disks: usize, _values: &Values) -> Result<OneThread> {
+        Ok(OneThread)
     }
 
     fn limits(laws: &ContactLaws, masses: &[f64], frequency: Option<f64>, values: &Values) -> TimeStepLimits {

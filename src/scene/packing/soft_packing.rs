@@ -50,6 +50,10 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
     /// # Errors
     /// A time step that the contacts do not allow, by name.
     pub fn of_disks(disks: &[Disk], start_time: f64, values: &Values) -> Result<Self> {
+        Self::of_disks_on(S::threads(disks.len(), values)?, disks, start_time, values)
+    }
+
+    fn of_disks_on(threads: S::Threads, disks: &[Disk], start_time: f64, values: &Values) -> Result<Self> {
         let mut drive = D::new(start_time, values)?;
         let laws = contact_laws(values);
         let mut masses = initial_packing::masses(disks, values);
@@ -81,6 +85,7 @@ impl<S: SoftMethod, D: BaseDrive> SoftPacking<S, D> {
             start_energy: 0.0,
             rotation: RotationRecord::new(disks.len(), start_time, values),
         };
+        packing.engine.use_threads(threads);
         packing.start_energy = packing.energy();
         Ok(packing)
     }
@@ -311,8 +316,9 @@ impl<S: SoftMethod, D: BaseDrive> Model for SoftPacking<S, D> {
 
     fn new(structure: &StructuralParameters, start_time: f64, values: &Values) -> Result<Self> {
         let disks = initial_packing::disks(info::disks(structure), values, 0.0)?;
-        let Settled { disks, warning } = settled::soft(disks, S::Normal::from_values(values), values)?;
-        let mut packing = Self::of_disks(&disks, start_time, values)?;
+        let (threads, normal) = (S::threads(disks.len(), values)?, S::Normal::from_values(values));
+        let Settled { disks, warning } = settled::soft(&threads, disks, normal, values)?;
+        let mut packing = Self::of_disks_on(threads, &disks, start_time, values)?;
         packing.warnings.extend(warning);
         if settled::is_wanted(values) {
             packing.move_with_base();

@@ -1,5 +1,7 @@
 //! Saved states of a simulation: bit for bit, as values or as bytes.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use super::Simulation;
@@ -75,26 +77,40 @@ impl<M: Model> Simulation<M> {
     /// # Errors
     /// The model refuses the state. The simulation is then as before.
     pub(crate) fn go_to(&mut self, saved: &Saved<M::State>) -> Result<()> {
-        let same = self.is_started() && self.start == saved.start && self.tuned.is_of_the_same_start(&saved.tuned);
-        let known = same && self.tuned.now == saved.tuned.now;
+        let (values, tuned) = self.with_own(saved);
+        let same = self.is_started() && self.start == saved.start && self.tuned.is_of_the_same_start(&tuned);
+        let known = same && self.tuned.now == tuned.now;
         match (&saved.state, self.model.as_mut().filter(|_| same)) {
             (None, _) => self.model = None,
             (Some(state), Some(model)) => {
-                Self::restore_tuned(model, state, &self.values, (&self.tuned, &saved.tuned))?;
+                Self::restore_tuned(model, state, &self.values, (&self.tuned, &tuned))?;
             }
             (Some(state), None) => {
-                let values = self.values.with_all(&saved.values, &saved.bytes);
-                self.model = Some(self.build_tuned(saved.start, state, &values, &saved.tuned)?);
+                let values = self.values.with_all(&values, &saved.bytes);
+                self.model = Some(self.build_tuned(saved.start, state, &values, &tuned)?);
             }
         }
-        self.values.take_over(&saved.values, &saved.bytes);
+        self.values.take_over(&values, &saved.bytes);
         if saved.is_started() && !known {
-            self.tuned.clone_from(&saved.tuned);
+            self.tuned.clone_from(&tuned);
             self.judge_parameters();
         }
         self.retuned = self.is_retuned();
         (self.start, self.time) = (saved.start, saved.time);
         Ok(())
+    }
+
+    /// Values of a saved state, with those of this simulation where no state brings any along.
+    fn with_own<'s>(&self, saved: &'s Saved<M::State>) -> (Cow<'s, [Value]>, Cow<'s, Tuned>) {
+        let (mut values, mut tuned) = (Cow::Borrowed(&saved.values[..]), Cow::Borrowed(&saved.tuned));
+        let own = self.values.table().settable().iter().zip(self.values.as_slice());
+        for (position, (_, own)) in own.enumerate().filter(|(_, (variable, _))| variable.outside_states) {
+            if values[position] != *own {
+                values.to_mut()[position] = *own;
+                tuned.to_mut().replace_at_start(position, *own);
+            }
+        }
+        (values, tuned)
     }
 
     /// As [`Simulation::restore`], with the model built anew: for one that a panic may have left inconsistent.

@@ -47,6 +47,13 @@ impl Tuned {
         }
     }
 
+    /// With another value in the place of one that the model was built from, if it has started.
+    pub fn replace_at_start(&mut self, position: usize, value: Value) {
+        if let Some(at_start) = self.at_start.get_mut(position) {
+            *at_start = value;
+        }
+    }
+
     /// Whether a model that was built from one is one that was built from the other.
     pub fn is_of_the_same_start(&self, other: &Self) -> bool {
         self.at_start == other.at_start && self.bytes_at_start == other.bytes_at_start

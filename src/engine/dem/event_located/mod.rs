@@ -31,6 +31,7 @@ mod tuning;
 
 use crate::contact::LinearDashpot;
 use crate::drive::{Drive, Motion};
+use crate::engine::threads::OneThread;
 use crate::engine::{ContactNow, Touched};
 use crate::error::are_sane;
 use crate::geometry::Disk;
@@ -61,6 +62,7 @@ pub struct EventStepper {
 
 impl Stepper for EventStepper {
     type Normal = LinearDashpot;
+    type Threads = OneThread;
     type Disks = Disks;
 
     const WORK_OF_STEP: f64 = 1.0;
@@ -87,6 +89,8 @@ impl Stepper for EventStepper {
         };
         (stepper, state)
     }
+
+    fn use_threads(&mut self, _threads: OneThread) {}
 
     fn constants(&self) -> &SoftDisks {
         &self.constants

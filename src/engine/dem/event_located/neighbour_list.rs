@@ -5,6 +5,7 @@ use crate::engine::dem::candidates::{make_room, near_walls, renew};
 use crate::engine::dem::cell_grid::{CellGrid, Cloud};
 use crate::engine::dem::fixed_grid::GridState;
 use crate::engine::dem::setup::{Breakdown, SoftDisks};
+use crate::engine::threads::OneThread;
 
 use super::state::{Contact, Disks};
 
@@ -48,14 +49,14 @@ impl NeighbourList {
             radii: &constants.radii,
             margin,
         };
-        self.grid.find(cloud, &mut self.pairs);
+        self.grid.find(&OneThread, cloud, &mut self.pairs);
         let open = |[first, second]: [u32; 2]| Contact::open(first, second);
         renew(
             &mut disks.pairs,
             &mut self.scratch,
             self.pairs.iter().copied().map(open),
         );
-        let near = near_walls(cloud, &constants.setup.walls, base);
+        let near = near_walls(cloud, &constants.setup.walls, base, 0..cloud.radii.len());
         renew(&mut disks.wall_contacts, &mut self.scratch, near.map(open));
     }
 

@@ -6,7 +6,7 @@ use crate::drive::Motion;
 use crate::engine::dem::lanes::{Lanes, MOST_LANES, xy};
 use crate::geometry::Wall;
 
-use super::contact_list::Eight;
+use super::eights::Eight;
 
 /// Disks as the forces see them. All of one length.
 #[derive(Clone, Copy)]

@@ -10,10 +10,11 @@ use fearless_simd::{Select, Simd, SimdMask};
 
 use crate::contact::{ContactLaws, NormalForce};
 use crate::engine::dem::angle::SMALL_SINE;
-use crate::engine::dem::lanes::{EightSums, Lanes, largest};
+use crate::engine::dem::lanes::Lanes;
 
-use super::contact_list::EightSprings;
 use super::contacts::SpringMemory;
+use super::eights::EightSprings;
+use super::force_sums::LaneSums;
 
 /// Candidates along their normals.
 #[derive(Clone, Copy)]
@@ -122,10 +123,10 @@ impl<S: Simd, V: Lanes<S>, N: NormalForce> LaneLaws<S, V, N> {
         let elastic = N::elastic(self.normal, overlap);
         let normal = touches.select((elastic - N::viscous(self.normal, overlap, velocity)).max(zero), zero);
         let lost_power = touches.select(elastic - normal, zero) * velocity;
-        sums.dissipated_power.add(at, lost_power);
+        sums.parts.dissipated_power.add(at, lost_power);
         sums.deepest = overlap.max(sums.deepest);
         if !SPRING {
-            sums.touching.add(at, touches.select(V::splat(simd, 1.0), zero));
+            sums.parts.touching.add(at, touches.select(V::splat(simd, 1.0), zero));
             return ContactForces {
                 normal,
                 tangential: zero,
@@ -165,7 +166,8 @@ impl<S: Simd, V: Lanes<S>, N: NormalForce> LaneLaws<S, V, N> {
         let slip = trial - stretch;
         // Slip dissipates the mean of the forces before and after times its length; both point against the slip.
         let before = V::from_slice(simd, &springs.stretch[at..at + V::LEN]);
-        sums.slip_heat
+        sums.parts
+            .slip_heat
             .add(at, self.half_tangential_stiffness * (stretch + before) * slip);
         touches
             .select(reference + slip, zero)
@@ -194,7 +196,7 @@ impl<S: Simd, V: Lanes<S>, N: NormalForce> LaneLaws<S, V, N> {
             let spring = springs.get(at + k);
             match (spring.is_closed(), overlap > 0.0) {
                 (false, true) => {
-                    sums.closed += 1;
+                    sums.parts.closed += 1;
                     // Closed since `overlap / speed`, and for no longer than this step.
                     let since = if speed * self.step > overlap {
                         overlap / speed
@@ -211,8 +213,8 @@ impl<S: Simd, V: Lanes<S>, N: NormalForce> LaneLaws<S, V, N> {
                     springs.set(at + k, closed);
                 }
                 (true, false) => {
-                    sums.closed -= 1;
-                    sums.lost_spring_energy += self.half_stiffness_of_one * spring.stretch * spring.stretch;
+                    sums.parts.closed -= 1;
+                    sums.parts.lost_spring_energy += self.half_stiffness_of_one * spring.stretch * spring.stretch;
                     springs.set(at + k, SpringMemory::OPEN);
                 }
                 _ => {}
@@ -244,71 +246,9 @@ fn turn_directions<S: Simd, V: Lanes<S>>(normal: [V; 2], radius_sum: V, (springs
     }
 }
 
-/// Sums over the contacts of one evaluation.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct ForceSums {
-    /// Power lost in the dashpots \[W\].
-    pub dissipated_power: f64,
-    /// Energy lost by slip since the last evaluation \[J\].
-    pub slip_heat: f64,
-    /// Deepest overlap \[m\].
-    pub deepest: f64,
-    /// Closed contacts.
-    pub contacts: u32,
-}
-
-/// The same sums, in parts.
-#[derive(Debug, Clone, Copy)]
-pub struct LaneSums<V> {
-    dissipated_power: EightSums,
-    slip_heat: EightSums,
-    /// Of what each lane has seen: no order changes a maximum.
-    deepest: V,
-    /// Closed contacts without springs, which do not remember that they are closed.
-    touching: EightSums,
-    /// Contacts with springs that closed less those that opened since the last evaluation.
-    closed: i64,
-    lost_spring_energy: f64,
-}
-
-impl<V> LaneSums<V> {
-    /// Nothing yet.
-    #[inline(always)]
-    pub fn new<S: Simd>(simd: S) -> Self
-    where
-        V: Lanes<S>,
-    {
-        Self {
-            dissipated_power: EightSums::default(),
-            slip_heat: EightSums::default(),
-            deepest: V::splat(simd, 0.0),
-            touching: EightSums::default(),
-            closed: 0,
-            lost_spring_energy: 0.0,
-        }
-    }
-
-    /// All parts together; with springs, `closed` contacts were closed before.
-    #[inline(always)]
-    pub fn total<S: Simd, const SPRING: bool>(&self, closed: u32) -> ForceSums
-    where
-        V: Lanes<S>,
-    {
-        ForceSums {
-            dissipated_power: self.dissipated_power.total(),
-            slip_heat: self.slip_heat.total() + self.lost_spring_energy,
-            deepest: largest(self.deepest),
-            contacts: if SPRING {
-                (i64::from(closed) + self.closed) as u32
-            } else {
-                self.touching.total() as u32
-            },
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::force_sums::ForceSums;
     use super::*;
     use crate::contact::{LinearDashpot, TangentialSpring};
     use crate::engine::dem::lanes::{LaneWork, in_lanes};
@@ -362,7 +302,7 @@ mod tests {
             let forces = laws.forces::<true>(approach, surfaces, (&mut springs, 0), &mut sums, AtRest);
             assert!((0..V::LEN).all(|k| forces.normal[k] == forces.normal[0]));
             assert!((0..V::LEN).all(|k| forces.tangential[k] == forces.tangential[0]));
-            let sums = sums.total::<S, true>(2);
+            let sums = sums.partial().total::<true>(2);
             (forces.normal[0], forces.tangential[0], springs.stretch[0], sums, V::LEN)
         }
     }

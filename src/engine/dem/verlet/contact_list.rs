@@ -1,7 +1,8 @@
-//! Lists of candidates for contact as the forces go through them: eight by eight, each property of eight together, so that
-//! registers load and store it as it lies.
+//! Lists of candidates for contact, in [`Eights`] for the forces.
 
 use std::marker::PhantomData;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use serde::{Deserialize, Serialize};
 
@@ -9,89 +10,7 @@ use crate::engine::dem::candidates::Candidate;
 use crate::engine::dem::lanes::MOST_LANES;
 
 use super::contacts::{Pair, SpringMemory, WallContact};
-
-/// Eight candidates.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C, align(64))]
-pub struct Eight {
-    /// Indices of both bodies.
-    pub bodies: [[u32; 2]; MOST_LANES],
-    /// [`Listed::length`] \[m\].
-    pub length: [f64; MOST_LANES],
-    /// What they remember.
-    pub springs: EightSprings,
-}
-
-/// Eights that go through the loop over contacts together.
-pub const BLOCK: usize = 8;
-
-/// So many candidates, eight by eight.
-#[derive(Default)]
-pub struct Eights<'a> {
-    /// Candidates, without those that fill up the last eight.
-    count: usize,
-    /// All of them.
-    pub eights: &'a mut [Eight],
-}
-
-impl Eights<'_> {
-    /// Blocks of [`BLOCK`] eights, the last one perhaps of fewer.
-    #[inline(always)]
-    pub fn blocks(&self) -> usize {
-        self.eights.len().div_ceil(BLOCK)
-    }
-
-    /// One of them, nothing behind the last.
-    #[inline(always)]
-    pub fn block(&mut self, n: usize) -> Eights<'_> {
-        let start = (n * BLOCK).min(self.eights.len());
-        let end = (start + BLOCK).min(self.eights.len());
-        Eights {
-            count: self
-                .count
-                .saturating_sub(start * MOST_LANES)
-                .min((end - start) * MOST_LANES),
-            eights: &mut self.eights[start..end],
-        }
-    }
-
-    /// Candidates in the `n`-th eight: what only fills it up can be left out.
-    #[inline(always)]
-    pub fn in_eight(&self, n: usize) -> usize {
-        self.count.saturating_sub(n * MOST_LANES).min(MOST_LANES)
-    }
-}
-
-/// [`SpringMemory`] of eight contacts.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-#[repr(C, align(64))]
-pub struct EightSprings {
-    /// Remembered directions, x.
-    pub direction_x: [f64; MOST_LANES],
-    /// Remembered directions, y.
-    pub direction_y: [f64; MOST_LANES],
-    /// lambda* \[m\].
-    pub reference: [f64; MOST_LANES],
-    /// Stretch \[m\].
-    pub stretch: [f64; MOST_LANES],
-}
-
-impl EightSprings {
-    /// One of them.
-    pub fn get(&self, k: usize) -> SpringMemory {
-        SpringMemory {
-            direction: [self.direction_x[k], self.direction_y[k]],
-            reference: self.reference[k],
-            stretch: self.stretch[k],
-        }
-    }
-
-    /// Replaces one of them.
-    pub fn set(&mut self, k: usize, spring: SpringMemory) {
-        [self.direction_x[k], self.direction_y[k]] = spring.direction;
-        (self.reference[k], self.stretch[k]) = (spring.reference, spring.stretch);
-    }
-}
+use super::eights::{Eight, EightSprings, Eights};
 
 /// A candidate that can stand in such a list.
 pub trait Listed: Candidate {
@@ -148,7 +67,7 @@ impl Listed for WallContact {
 }
 
 /// Candidates in the order of their indices.
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 #[serde(
     from = "Vec<C>",
     into = "Vec<C>",
@@ -157,7 +76,22 @@ impl Listed for WallContact {
 pub struct ContactList<C: Listed> {
     count: usize,
     eights: Vec<Eight>,
+    /// The same for lists of the same bodies alone: see [`Self::edition`].
+    edition: u64,
     listed: PhantomData<C>,
+}
+
+/// Editions of lists so far in this process; that of an empty list is 0.
+static EDITIONS: AtomicU64 = AtomicU64::new(0);
+
+fn next_edition() -> u64 {
+    EDITIONS.fetch_add(1, Ordering::Relaxed) + 1
+}
+
+impl<C: Listed> PartialEq for ContactList<C> {
+    fn eq(&self, other: &Self) -> bool {
+        self.count == other.count && self.eights == other.eights
+    }
 }
 
 impl<C: Listed> Default for ContactList<C> {
@@ -165,6 +99,7 @@ impl<C: Listed> Default for ContactList<C> {
         Self {
             count: 0,
             eights: Vec::new(),
+            edition: 0,
             listed: PhantomData,
         }
     }
@@ -175,12 +110,13 @@ impl<C: Listed> Clone for ContactList<C> {
         Self {
             count: self.count,
             eights: self.eights.clone(),
+            edition: self.edition,
             listed: PhantomData,
         }
     }
 
     fn clone_from(&mut self, source: &Self) {
-        self.count = source.count;
+        (self.count, self.edition) = (source.count, source.edition);
         self.eights.clone_from(&source.eights);
     }
 }
@@ -206,7 +142,46 @@ impl<C: Listed> ContactList<C> {
 
     /// How many of them remember that they are closed.
     pub fn closed(&self) -> usize {
-        self.iter().filter(Candidate::remembers).count()
+        let closed = |eight: &Eight| {
+            let [x, y] = [&eight.springs.direction_x, &eight.springs.direction_y];
+            x.iter().zip(y).filter(|(x, y)| **x != 0.0 || **y != 0.0).count()
+        };
+        // What fills up the last eight is open.
+        self.eights.iter().map(closed).sum()
+    }
+
+    /// A number that two lists of one process share only if they have the same bodies: for what is derived from the bodies.
+    pub fn edition(&self) -> u64 {
+        self.edition
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Bodies of the candidate at this place, counted from 0.
+    pub fn bodies(&self, place: usize) -> [u32; 2] {
+        self.eights[place / MOST_LANES].bodies[place % MOST_LANES]
+    }
+
+    /// Calls `see` with place and bodies of the candidates at these places, in order.
+    pub fn each_of(&self, places: Range<usize>, mut see: impl FnMut(usize, [u32; 2])) {
+        let eights = places.start / MOST_LANES..places.end.div_ceil(MOST_LANES);
+        for (n, eight) in eights.clone().zip(&self.eights[eights]) {
+            for (k, bodies) in eight.bodies.iter().enumerate() {
+                let place = n * MOST_LANES + k;
+                if places.contains(&place) {
+                    see(place, *bodies);
+                }
+            }
+        }
+    }
+
+    /// Places of the candidates whose first bodies are in the range.
+    pub fn places_of(&self, first: Range<u32>) -> Range<usize> {
+        let place = |body: u32| self.partition_point(|[first, _]| first < body);
+        place(first.start)..place(first.end)
     }
 
     /// Makes room for so many, so that no step allocates for them.
@@ -234,6 +209,7 @@ impl<C: Listed> ContactList<C> {
             }
         }
         self.count = kept;
+        self.edition = next_edition();
         self.eights.truncate(kept.div_ceil(MOST_LANES));
         if let Some(last) = kept.checked_sub(1) {
             let bodies = self.get(last).key();
@@ -241,6 +217,37 @@ impl<C: Listed> ContactList<C> {
                 self.put(k, bodies, C::LENGTH_OF_NONE, SpringMemory::OPEN);
             }
         }
+    }
+
+    /// Replaces them by `renewed`, which has the place of the former ones.
+    pub(super) fn replace(&mut self, renewed: &mut Self) {
+        renewed.edition = next_edition();
+        std::mem::swap(self, renewed);
+    }
+
+    /// Makes it as long as `count` candidates need, whatever they are.
+    pub(super) fn resize(&mut self, count: usize) -> &mut [Eight] {
+        self.count = count;
+        self.eights.resize(count.div_ceil(MOST_LANES), Eight::NONE);
+        &mut self.eights
+    }
+
+    /// What the candidate at this place remembers.
+    pub(super) fn spring(&self, place: usize) -> SpringMemory {
+        self.eights[place / MOST_LANES].springs.get(place % MOST_LANES)
+    }
+
+    /// The first place at which `is_before` does not hold for the bodies, which it holds for up to there.
+    pub(super) fn partition_point(&self, is_before: impl Fn([u32; 2]) -> bool) -> usize {
+        let (mut low, mut high) = (0, self.count);
+        while low < high {
+            let middle = low + (high - low) / 2;
+            match is_before(self.bodies(middle)) {
+                true => low = middle + 1,
+                false => high = middle,
+            }
+        }
+        low
     }
 
     fn get(&self, k: usize) -> C {
@@ -281,6 +288,7 @@ impl<C: Listed> ContactList<C> {
     /// Replaces them by these, without memory.
     fn open_all(&mut self, bodies: &[[u32; 2]], lengths: &[f64]) {
         self.count = bodies.len();
+        self.edition = next_edition();
         self.eights.clear();
         let (bodies, last_bodies) = bodies.as_chunks();
         let (lengths, last_lengths) = lengths.as_chunks();

@@ -3,11 +3,12 @@
 use fearless_simd::Simd;
 
 use crate::contact::{ContactLaws, NormalForce};
-use crate::engine::dem::lanes::{LaneWork, Lanes, MOST_LANES};
+use crate::engine::dem::lanes::{LaneWork, Lanes, MOST_LANES, in_lanes};
 
 use super::contact_kinds::{AtWalls, BetweenDisks, DiskArrays, ForceArrays, Geometry, Kind, MovingWalls};
-use super::contact_laws::{Approach, ContactForces, ForceSums, LaneLaws, LaneSums, Sliding, Surfaces};
-use super::contact_list::{BLOCK, Eight, Eights};
+use super::contact_laws::{Approach, ContactForces, LaneLaws, Sliding, Surfaces};
+use super::eights::{BLOCK, Eight, Eights};
+use super::force_sums::{ForceSums, LaneSums, PartialSums};
 
 /// Adds the forces of all contacts; gives their sums.
 pub struct AddForces<'a, N, const SPRING: bool> {
@@ -25,10 +26,18 @@ pub struct AddForces<'a, N, const SPRING: bool> {
     pub wall_contacts: Eights<'a>,
     /// Contacts with springs that were closed before.
     pub closed: u32,
+    /// Sums over pairs that are not among these.
+    pub before: PartialSums,
     /// Where the forces are added.
     pub forces: ForceArrays<'a>,
     /// Scratch memory.
     pub workspace: &'a mut Workspace,
+}
+
+/// The same. Compiled once, whatever else the engine is composed of.
+#[inline(never)]
+pub fn add<N: NormalForce, const SPRING: bool>(forces: AddForces<'_, N, SPRING>) -> ForceSums {
+    in_lanes(forces)
 }
 
 impl<N: NormalForce, const SPRING: bool> LaneWork for AddForces<'_, N, SPRING> {
@@ -43,28 +52,33 @@ impl<N: NormalForce, const SPRING: bool> LaneWork for AddForces<'_, N, SPRING> {
             workspace,
             mut pairs,
             mut wall_contacts,
+            mut before,
             ..
         } = self;
-        let (laws, mut sums) = (
-            LaneLaws::<S, V, N>::new(simd, self.laws, self.step),
-            LaneSums::new(simd),
-        );
+        let laws = LaneLaws::<S, V, N>::new(simd, self.laws, self.step);
         // Once more, since the compiler does not see from farther away that the lengths are one.
         let disks = disks.again();
         forces.on_disks = &mut forces.on_disks[..disks.count()];
-        for n in 0..pairs.blocks() {
-            let (kind, mut block) = (BetweenDisks { disks }, pairs.block(n));
-            compute_geometry::<S, V, _, SPRING>(simd, kind, &block, workspace);
-            compute_forces::<S, V, N, _, SPRING>(&laws, kind, &mut block, workspace, &mut sums);
-            add_forces::<S, BetweenDisks<'_>, SPRING>(simd, &block, workspace, &mut forces);
+        let Workspace { geometries, found } = workspace;
+        for n in 0..pairs.groups() {
+            let (kind, mut group) = (BetweenDisks { disks }, pairs.group(n));
+            let mut sums = LaneSums::new(simd);
+            for n in 0..group.blocks() {
+                let mut block = group.block(n);
+                compute_geometry::<S, V, _, SPRING>(simd, kind, &block, geometries);
+                compute_forces::<S, V, N, _, SPRING>(&laws, kind, &mut block, geometries, found, &mut sums);
+                add_forces::<S, BetweenDisks<'_>, SPRING>(simd, &block, found, &mut forces);
+            }
+            before.add(&sums.partial());
         }
+        let mut sums = LaneSums::after(simd, before);
         for n in 0..wall_contacts.blocks() {
             let (kind, mut block) = (AtWalls { disks, walls }, wall_contacts.block(n));
-            compute_geometry::<S, V, _, SPRING>(simd, kind, &block, workspace);
-            compute_forces::<S, V, N, _, SPRING>(&laws, kind, &mut block, workspace, &mut sums);
-            add_forces::<S, AtWalls<'_>, SPRING>(simd, &block, workspace, &mut forces);
+            compute_geometry::<S, V, _, SPRING>(simd, kind, &block, geometries);
+            compute_forces::<S, V, N, _, SPRING>(&laws, kind, &mut block, geometries, found, &mut sums);
+            add_forces::<S, AtWalls<'_>, SPRING>(simd, &block, found, &mut forces);
         }
-        sums.total::<S, SPRING>(self.closed)
+        sums.partial().total::<SPRING>(self.closed)
     }
 }
 
@@ -78,9 +92,11 @@ pub struct Workspace {
 /// Forces on the first bodies of eight contacts \[N\], and their parts along the surfaces.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C, align(64))]
-struct Found {
-    forces: [[f64; 2]; MOST_LANES],
-    tangential: [f64; MOST_LANES],
+pub struct Found {
+    /// x and y.
+    pub forces: [[f64; 2]; MOST_LANES],
+    /// Along the surfaces, where there are tangential springs.
+    pub tangential: [f64; MOST_LANES],
 }
 
 /// The surfaces of eight contacts.
@@ -100,13 +116,13 @@ impl<K: Kind> Sliding for SurfacesOf<'_, K> {
 /// The three parts are loops of their own, so that the roots and quotients of several registers proceed at once, and so do
 /// the laws, where those of one would be waited for.
 #[inline(always)]
-fn compute_geometry<S: Simd, V: Lanes<S>, K: Kind, const SPRING: bool>(
+pub fn compute_geometry<S: Simd, V: Lanes<S>, K: Kind, const SPRING: bool>(
     simd: S,
     kind: K,
     block: &Eights<'_>,
-    workspace: &mut Workspace,
+    geometries: &mut [Geometry; BLOCK],
 ) {
-    for (n, (eight, geometry)) in block.eights.iter().zip(&mut workspace.geometries).enumerate() {
+    for (n, (eight, geometry)) in block.eights.iter().zip(geometries).enumerate() {
         for at in (0..block.in_eight(n)).step_by(V::LEN) {
             kind.geometry::<S, V, SPRING>(simd, eight, at, geometry);
         }
@@ -115,14 +131,14 @@ fn compute_geometry<S: Simd, V: Lanes<S>, K: Kind, const SPRING: bool>(
 
 /// The second part: their forces.
 #[inline(always)]
-fn compute_forces<S: Simd, V: Lanes<S>, N: NormalForce, K: Kind, const SPRING: bool>(
+pub fn compute_forces<S: Simd, V: Lanes<S>, N: NormalForce, K: Kind, const SPRING: bool>(
     laws: &LaneLaws<S, V, N>,
     kind: K,
     block: &mut Eights<'_>,
-    workspace: &mut Workspace,
+    geometries: &[Geometry; BLOCK],
+    found: &mut [Found],
     sums: &mut LaneSums<V>,
 ) {
-    let Workspace { geometries, found } = workspace;
     for (n, (geometry, found)) in geometries.iter().zip(found).enumerate().take(block.eights.len()) {
         for at in (0..block.in_eight(n)).step_by(V::LEN) {
             let here = (&mut block.eights[n], at);
@@ -136,10 +152,10 @@ fn compute_forces<S: Simd, V: Lanes<S>, N: NormalForce, K: Kind, const SPRING: b
 fn add_forces<S: Simd, K: Kind, const SPRING: bool>(
     simd: S,
     block: &Eights<'_>,
-    workspace: &Workspace,
+    found: &[Found; BLOCK],
     forces: &mut ForceArrays<'_>,
 ) {
-    for (n, (eight, found)) in block.eights.iter().zip(&workspace.found).enumerate() {
+    for (n, (eight, found)) in block.eights.iter().zip(found).enumerate() {
         let found = found.forces.iter().zip(&found.tangential);
         for (bodies, (force, tangential)) in eight.bodies.iter().zip(found).take(block.in_eight(n)) {
             K::add::<S, SPRING>(simd, *bodies, *force, *tangential, forces);

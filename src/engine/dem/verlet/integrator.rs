@@ -45,6 +45,16 @@ pub struct Constants<'a> {
     pub inverse_mass: &'a [f64],
 }
 
+impl Constants<'_> {
+    /// Those of the first `count` degrees of freedom, and of the others.
+    pub fn split_at(self, count: usize) -> (Self, Self) {
+        let (weight, weight_after) = self.weight.split_at(count);
+        let (inverse_mass, inverse_mass_after) = self.inverse_mass.split_at(count);
+        let part = |weight, inverse_mass| Constants { weight, inverse_mass };
+        (part(weight, inverse_mass), part(weight_after, inverse_mass_after))
+    }
+}
+
 /// Flat view of all degrees of freedom: positions and angles, their rates, their second derivatives, and more.
 pub struct Coordinates<'state> {
     /// Positions \[m\] and angles \[rad\].
@@ -57,7 +67,25 @@ pub struct Coordinates<'state> {
     pub higher: &'state mut [f64],
 }
 
-impl Coordinates<'_> {
+impl<'state> Coordinates<'state> {
+    /// Those of the first `count` degrees of freedom, and of the others. Only without higher derivatives.
+    pub fn split_at(self, count: usize) -> (Self, Self) {
+        debug_assert!(self.higher.is_empty());
+        let (position, position_after) = self.position.split_at_mut(count);
+        let (velocity, velocity_after) = self.velocity.split_at_mut(count);
+        let (acceleration, acceleration_after) = self.acceleration.split_at_mut(count);
+        let part = |position: &'state mut [f64], velocity, acceleration| Self {
+            position,
+            velocity,
+            acceleration,
+            higher: &mut [],
+        };
+        (
+            part(position, velocity, acceleration),
+            part(position_after, velocity_after, acceleration_after),
+        )
+    }
+
     /// The same view for a shorter time.
     pub fn reborrow(&mut self) -> Coordinates<'_> {
         Coordinates {

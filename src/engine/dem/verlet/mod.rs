@@ -7,11 +7,20 @@ mod contact_kinds;
 mod contact_laws;
 mod contact_list;
 pub(super) mod contacts;
+mod disk_ranges;
+mod eights;
+mod evaluation;
+mod force_sums;
 mod forces;
 mod gear;
 mod integrator;
+mod list_building;
 mod moved_disks;
 mod neighbour_list;
+mod shared_forces;
+mod shared_list;
+mod shared_motion;
+mod shared_walls;
 mod state;
 mod tuning;
 
@@ -21,13 +30,12 @@ use crate::contact::{LinearDashpot, NormalForce};
 use crate::drive::{Drive, Motion};
 use crate::elementary::hypot;
 use crate::engine::ContactNow;
+use crate::engine::threads::{OneThread, Threads, share};
 use crate::error::are_sane;
 use crate::geometry::Disk;
 
 use super::candidates;
-use super::cell_grid::Cloud;
 use super::fixed_grid::{GridState, Stepper};
-use super::lanes::in_lanes;
 use super::setup::{Breakdown, SoftDiskSetup, SoftDisks};
 
 pub use contact_list::{ContactList, Listed};
@@ -37,14 +45,14 @@ pub use integrator::{Constants, Coordinates, Integrator, VelocityVerlet};
 pub use state::Disks;
 
 use closed_contacts::Closed;
-use contact_kinds::{DiskArrays, ForceArrays, MovingWalls};
-use contact_laws::ForceSums;
-use forces::{AddForces, Workspace};
-use neighbour_list::{NeighbourList, farthest_squared, inner_margin};
+use forces::Workspace;
+use neighbour_list::NeighbourList;
+use shared_forces::Shares;
+use shared_motion::Advance;
 
-/// Steps by the integrator I, with the normal force N.
+/// Steps by the integrator I, with the normal force N, on the threads T.
 #[derive(Debug, Clone)]
-pub struct PredictorCorrector<I, N = LinearDashpot> {
+pub struct PredictorCorrector<I, N = LinearDashpot, T = OneThread> {
     constants: SoftDisks<N>,
     /// 1/m, 1/m, R/I of each disk, then 1 for each impulse of a wall.
     inverse_mass: Vec<f64>,
@@ -57,11 +65,14 @@ pub struct PredictorCorrector<I, N = LinearDashpot> {
     arc_lengths: Vec<f64>,
     neighbours: NeighbourList,
     workspace: Box<Workspace>,
+    threads: T,
+    shares: Shares,
     integrator: PhantomData<I>,
 }
 
-impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
+impl<I: Integrator, N: NormalForce, T: Threads> Stepper for PredictorCorrector<I, N, T> {
     type Normal = N;
+    type Threads = T;
     type Disks = Disks;
 
     const WORK_OF_STEP: f64 = 0.1;
@@ -88,6 +99,8 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
             force: vec![0.0; length],
             arc_lengths: vec![0.0; disks.len()],
             workspace: Box::default(),
+            threads: T::default(),
+            shares: Shares::default(),
             neighbours: NeighbourList::new(constants.smallest_radius, disks.len()),
             constants,
             integrator: PhantomData,
@@ -102,6 +115,10 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
         (stepper, disks)
     }
 
+    fn use_threads(&mut self, threads: T) {
+        (self.threads, self.shares) = (threads, Shares::default());
+    }
+
     fn constants(&self) -> &SoftDisks<N> {
         &self.constants
     }
@@ -110,7 +127,7 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
         self.force.copy_from_slice(&self.weight);
         self.place_moved_disks(state, self.constants.time_of(state.steps));
         self.build_list(state);
-        let sums = self.evaluate(state, 0.0);
+        let sums = self.evaluate(state, 0.0, false);
         self.carry_moved_disks(state, 0.0);
         let accelerations = state.disks.acceleration.iter_mut();
         for (acceleration, (force, inverse)) in accelerations.zip(self.force.iter().zip(&self.inverse_mass)) {
@@ -129,7 +146,7 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
     fn step<D: Drive>(&mut self, state: &mut GridState<D, Disks>, duration: f64, time: f64) -> Result<(), Breakdown> {
         self.force.copy_from_slice(&self.weight);
         I::predict(coordinates(&mut state.disks), duration);
-        self.evaluate_prediction(state, duration, time)?;
+        self.evaluate_prediction(state, duration, time, None)?;
         I::correct(coordinates(&mut state.disks), &self.force, &self.inverse_mass, duration);
         Ok(())
     }
@@ -138,23 +155,8 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
         if state.steps >= target {
             return Ok(());
         }
-        let step = self.constants.setup.time_step;
-        self.force.copy_from_slice(&self.weight);
-        I::predict(coordinates(&mut state.disks), step);
-        loop {
-            self.evaluate_prediction(state, step, self.constants.time_of(state.steps + 1))?;
-            state.steps += 1;
-            let coordinates = coordinates(&mut state.disks);
-            if state.steps == target {
-                I::correct(coordinates, &self.force, &self.inverse_mass, step);
-                return Ok(());
-            }
-            let disks = Constants {
-                weight: &self.weight,
-                inverse_mass: &self.inverse_mass,
-            };
-            I::correct_and_predict(coordinates, &mut self.force, disks, step);
-        }
+        let threads = self.threads.clone();
+        threads.within(|| self.run_steps(state, target))
     }
 
     fn tune<D: Drive>(&mut self, state: &mut GridState<D, Disks>, friction: f64, gravity: f64) {
@@ -247,21 +249,78 @@ impl<I: Integrator, N: NormalForce> Stepper for PredictorCorrector<I, N> {
     }
 }
 
-impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
-    /// What lies between prediction and correction of a step: base, neighbours, forces and the balance of energy.
+impl<I: Integrator, N: NormalForce, T: Threads> PredictorCorrector<I, N, T> {
+    /// Advances by one step of the grid or more.
+    fn run_steps<D: Drive>(&mut self, state: &mut GridState<D, Disks>, target: u64) -> Result<(), Breakdown> {
+        let step = self.constants.setup.time_step;
+        self.force.copy_from_slice(&self.weight);
+        I::predict(coordinates(&mut state.disks), step);
+        let mut farthest = None;
+        loop {
+            let time = self.constants.time_of(state.steps + 1);
+            self.evaluate_prediction(state, step, time, farthest)?;
+            state.steps += 1;
+            if state.steps == target {
+                I::correct(coordinates(&mut state.disks), &self.force, &self.inverse_mass, step);
+                return Ok(());
+            }
+            farthest = self.correct_and_predict::<D>(&mut state.disks, step);
+        }
+    }
+
+    /// Ends a step and begins the next. Several threads do at once what comes next with each disk, unless the drive moves some before:
+    /// they give the largest square of a distance \[m2\] since the list was built.
+    fn correct_and_predict<D: Drive>(&mut self, disks: &mut Disks, step: f64) -> Option<f64> {
+        let constants = Constants {
+            weight: &self.weight,
+            inverse_mass: &self.inverse_mass,
+        };
+        if self.threads.count() == 1 || D::MOVES_DISKS || I::HIGHER_DERIVATIVES > 0 {
+            I::correct_and_predict(coordinates(disks), &mut self.force, constants, step);
+            return None;
+        }
+        let Disks {
+            position,
+            velocity,
+            acceleration,
+            higher,
+            positions_at_list_build,
+            ..
+        } = disks;
+        let advance = Advance::<I> {
+            coordinates: Coordinates {
+                position,
+                velocity,
+                acceleration,
+                higher,
+            },
+            force: &mut self.force,
+            constants,
+            step,
+            arc_lengths: &mut self.arc_lengths,
+            radii: &self.constants.radii,
+            then: positions_at_list_build,
+            integrator: PhantomData,
+        };
+        Some(share(&self.threads, advance))
+    }
+
+    /// What lies between prediction and correction of a step: base, neighbours, forces and the balance of energy. `farthest` is what
+    /// [`Self::correct_and_predict`] gave.
     fn evaluate_prediction<D: Drive>(
         &mut self,
         state: &mut GridState<D, Disks>,
         duration: f64,
         time: f64,
+        farthest: Option<f64>,
     ) -> Result<(), Breakdown> {
         let base_before = state.base.displacement;
         state.base = state.drive.motion(time);
         self.place_moved_disks(state, time);
-        self.build_list_if_due(state, time)?;
+        self.build_list_if_due(state, time, farthest)?;
 
         let base_force_before = state.disks.base_force;
-        let sums = self.evaluate(state, duration);
+        let sums = self.evaluate(state, duration, farthest.is_some());
         self.carry_moved_disks(state, duration);
         self.constants.check_overlap(sums.deepest, time)?;
         let disks = &mut state.disks;
@@ -270,98 +329,6 @@ impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
         disks.dissipated_power = sums.dissipated_power;
         state.contacts = sums.contacts;
         Ok(())
-    }
-
-    /// Forces at the present positions, velocities and base motion, into `self.force`. Compiled with tangential springs and
-    /// without, so that the loops hold no branch on it.
-    fn evaluate<D>(&mut self, state: &mut GridState<D, Disks>, duration: f64) -> ForceSums {
-        if self.constants.setup.laws.tangential.acts() {
-            self.evaluate_with::<true>(&mut state.disks, state.base, duration, state.contacts)
-        } else {
-            self.evaluate_with::<false>(&mut state.disks, state.base, duration, state.contacts)
-        }
-    }
-
-    #[inline(never)]
-    fn evaluate_with<const SPRING: bool>(
-        &mut self,
-        disks: &mut Disks,
-        base: Motion,
-        duration: f64,
-        closed_before: u32,
-    ) -> ForceSums {
-        let (setup, radii) = (&self.constants.setup, &self.constants.radii);
-        let (on_disks, from_walls) = self.force.split_at_mut(3 * radii.len());
-        let from_walls = from_walls.as_chunks_mut().0;
-        let (positions, velocities) = (disks.position.as_chunks().0, disks.velocity.as_chunks().0);
-        if SPRING {
-            let turns = radii.iter().zip(positions);
-            for (arc_length, (radius, position)) in self.arc_lengths.iter_mut().zip(turns) {
-                *arc_length = radius * position[2];
-            }
-        }
-        let arrays = DiskArrays::new(positions, velocities, radii, &self.arc_lengths);
-        let sums = in_lanes(AddForces::<N, SPRING> {
-            laws: &setup.laws,
-            step: duration,
-            disks: arrays,
-            walls: MovingWalls {
-                walls: &setup.walls,
-                base,
-            },
-            pairs: disks.pairs.eights_mut(),
-            wall_contacts: disks.wall_contacts.eights_mut(),
-            closed: closed_before,
-            forces: ForceArrays {
-                on_disks: on_disks.as_chunks_mut().0,
-                from_walls,
-            },
-            workspace: &mut self.workspace,
-        });
-        let vertical = from_walls.iter().zip(&setup.walls);
-        disks.base_force = vertical.map(|(force, wall)| wall.follows_base * force[1]).sum();
-        sums
-    }
-
-    /// Builds the neighbour list anew if a disk or the base has moved by half the margin since it was built.
-    fn build_list_if_due<D: Drive>(&mut self, state: &mut GridState<D, Disks>, time: f64) -> Result<(), Breakdown> {
-        let disks = &state.disks;
-        let farthest = farthest_squared(disks.positions(), &disks.positions_at_list_build);
-        let base_moved = (state.base.displacement - disks.base_at_list_build).abs();
-        let limit = 0.5 * disks.list_margin;
-        if farthest < limit * limit && base_moved < limit {
-            return Ok(());
-        }
-        if state.steps <= disks.step_of_list_build + 1 {
-            self.constants.check_distance(farthest.sqrt(), time)?;
-        }
-        self.build_list(state);
-        Ok(())
-    }
-
-    fn build_list<D: Drive>(&mut self, state: &mut GridState<D, Disks>) {
-        let (count, setup) = (self.constants.radii.len(), &self.constants.setup);
-        let disks = &mut state.disks;
-        disks.positions_at_list_build.clear();
-        let positions = &disks.position.as_chunks().0[..count];
-        disks.positions_at_list_build.extend_from_slice(positions);
-        disks.base_at_list_build = state.base.displacement;
-        disks.step_of_list_build = state.steps;
-        let velocities = disks.velocities()[..count].iter();
-        let squares = velocities.map(|[vx, vy, _]| vx * vx + vy * vy);
-        let fastest = squares.fold(0.0, f64::max).sqrt().max(state.base.velocity.abs());
-        disks.list_margin = inner_margin(fastest, setup.time_step, self.constants.smallest_radius);
-        let cloud = Cloud {
-            positions: &disks.positions_at_list_build,
-            radii: &self.constants.radii,
-            margin: disks.list_margin,
-        };
-        self.neighbours.find_pairs(cloud, &mut disks.pairs);
-        self.neighbours
-            .find_wall_contacts(cloud, &setup.walls, disks.base_at_list_build, &mut disks.wall_contacts);
-        self.drop_contacts_of_the_floor::<D>(disks);
-        // A closed contact whose disks have jumped apart is not in the list any more.
-        state.contacts = disks.closed_contacts();
     }
 }
 

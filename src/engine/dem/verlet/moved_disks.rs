@@ -3,10 +3,11 @@
 use crate::contact::NormalForce;
 use crate::drive::Drive;
 use crate::engine::dem::fixed_grid::GridState;
+use crate::engine::threads::Threads;
 
 use super::{Disks, Integrator, PredictorCorrector};
 
-impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
+impl<I: Integrator, N: NormalForce, T: Threads> PredictorCorrector<I, N, T> {
     /// Puts them where the drive has them at `time` \[s\], in place of what was predicted.
     #[inline(always)]
     pub(super) fn place_moved_disks<D: Drive>(&self, state: &mut GridState<D, Disks>, time: f64) {

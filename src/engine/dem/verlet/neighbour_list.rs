@@ -5,15 +5,15 @@
 //! trajectory, depend neither on when a list was built nor on how the cells lie. Source: Verlet 1967,
 //! doi:10.1103/PhysRev.159.98.
 
-use fearless_simd::{Simd, SimdBase, f64x2};
-
-use crate::engine::dem::candidates::{make_room, near_walls, room_for};
+use crate::engine::dem::candidates::{make_room, room_for};
 use crate::engine::dem::cell_grid::{CellGrid, Cloud};
-use crate::engine::dem::lanes::{LaneWork, Lanes, MOST_LANES, in_lanes, largest, xy};
-use crate::geometry::Wall;
+use crate::engine::threads::{Threads, share};
 
 use super::contact_list::ContactList;
 use super::contacts::{Pair, WallContact};
+use super::shared_list::NearPairs;
+use super::shared_motion::Farthest;
+use super::shared_walls::NearWalls;
 
 /// Gap, in smallest radii, below which a pair is in the outer list: it lasts for long at rest and stays short.
 const OUTER_MARGIN: f64 = 0.3;
@@ -42,11 +42,20 @@ pub struct NeighbourList {
     outer: Vec<[u32; 2]>,
     /// Positions when the outer list was built.
     positions_at_build: Vec<[f64; 3]>,
-    /// Pairs of the outer list that are in the inner one, and the sums of their radii.
-    near: Vec<[u32; 2]>,
-    near_sums: Vec<f64>,
+    /// Pairs of the outer list that are in the inner one.
+    near: NearPairs,
     scratch: ContactList<Pair>,
-    wall_scratch: ContactList<WallContact>,
+    walls: WallScratch,
+}
+
+/// Memory for the search of walls.
+#[derive(Debug, Clone, Default)]
+struct WallScratch {
+    bodies: Vec<[u32; 2]>,
+    /// Zero.
+    lengths: Vec<f64>,
+    parts: Vec<Vec<[u32; 2]>>,
+    scratch: ContactList<WallContact>,
 }
 
 impl NeighbourList {
@@ -57,94 +66,52 @@ impl NeighbourList {
             ..Self::default()
         };
         make_room(&mut list.outer, disks);
-        make_room(&mut list.near, disks);
-        make_room(&mut list.near_sums, disks);
+        list.near.make_room(disks);
         list.scratch.reserve(room_for(disks));
-        list.wall_scratch.reserve(room_for(disks));
+        list.walls.scratch.reserve(room_for(disks));
+        make_room(&mut list.walls.bodies, disks);
+        make_room(&mut list.walls.lengths, disks);
         list
     }
 
     /// Replaces `pairs` by all pairs whose gap is less than the margin; closed contacts keep their memory.
-    pub fn find_pairs(&mut self, cloud: Cloud<'_>, pairs: &mut ContactList<Pair>) {
+    pub fn find_pairs(&mut self, threads: &impl Threads, cloud: Cloud<'_>, pairs: &mut ContactList<Pair>) {
         let margin = OUTER_MARGIN * self.smallest_radius;
         let slack = 0.5 * (margin - cloud.margin);
         let lasts = self.positions_at_build.len() == cloud.positions.len()
-            && farthest_squared(cloud.positions, &self.positions_at_build) < slack * slack;
+            && self.farthest_squared(threads, cloud) < slack * slack;
         if !lasts {
-            self.grid.find(Cloud { margin, ..cloud }, &mut self.outer);
+            self.grid.find(threads, Cloud { margin, ..cloud }, &mut self.outer);
             self.positions_at_build.clear();
             self.positions_at_build.extend_from_slice(cloud.positions);
         }
-        // Without a branch on whether a pair is near: it would be wrong too often.
-        let Self {
-            outer, near, near_sums, ..
-        } = self;
-        near.resize(outer.len(), [0; 2]);
-        near_sums.resize(outer.len(), 0.0);
-        let mut count = 0;
-        for &[first, second] in &*outer {
-            let (i, j) = (first as usize, second as usize);
-            let radius_sum = cloud.radii[i] + cloud.radii[j];
-            let ([x1, y1, _], [x2, y2, _]) = (cloud.positions[i], cloud.positions[j]);
-            let ((dx, dy), range) = ((x1 - x2, y1 - y2), radius_sum + cloud.margin);
-            let beyond = dx * dx + dy * dy >= range * range;
-            (near[count], near_sums[count]) = ([first, second], radius_sum);
-            count += usize::from(!beyond);
+        let (outer, near) = (&self.outer, &mut self.near);
+        near.pick(threads, cloud, outer);
+        if threads.count() == 1 {
+            let (bodies, lengths) = near.only_part();
+            pairs.renew(bodies, lengths, &mut self.scratch);
+        } else {
+            near.renew(threads, pairs, &mut self.scratch);
         }
-        pairs.renew(&near[..count], &near_sums[..count], &mut self.scratch);
+    }
+
+    /// Largest square of a distance \[m2\] from the positions for which the outer list was built.
+    fn farthest_squared(&self, threads: &impl Threads, cloud: Cloud<'_>) -> f64 {
+        let (now, then) = (cloud.positions, &self.positions_at_build[..]);
+        share(threads, Farthest { now, then })
     }
 
     /// Replaces `contacts` by all disks whose gap to a wall is less than the margin.
     pub fn find_wall_contacts(
         &mut self,
-        cloud: Cloud<'_>,
-        walls: &[Wall],
-        base_displacement: f64,
+        threads: &impl Threads,
+        search: NearWalls<'_>,
         contacts: &mut ContactList<WallContact>,
     ) {
-        let Self { near, near_sums, .. } = self;
-        near.clear();
-        near.extend(near_walls(cloud, walls, base_displacement));
-        near_sums.clear();
-        near_sums.resize(near.len(), 0.0);
-        contacts.renew(near, near_sums, &mut self.wall_scratch);
-    }
-}
-
-/// Largest square of a distance \[m2\] between the positions in two lists.
-pub fn farthest_squared(now: &[[f64; 3]], then: &[[f64; 3]]) -> f64 {
-    let count = now.len().min(then.len());
-    in_lanes(Farthest {
-        now: &now[..count],
-        then: &then[..count],
-    })
-}
-
-struct Farthest<'a> {
-    now: &'a [[f64; 3]],
-    then: &'a [[f64; 3]],
-}
-
-impl LaneWork for Farthest<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn run<S: Simd, V: Lanes<S>>(self, simd: S) -> f64 {
-        let (now, then) = (self.now.chunks_exact(V::LEN), self.then.chunks_exact(V::LEN));
-        let rest = now.remainder().iter().zip(then.remainder());
-        let mut farthest = V::splat(simd, 0.0);
-        for (now, then) in now.zip(then) {
-            let mut moved = [f64x2::splat(simd, 0.0); MOST_LANES];
-            for k in 0..V::LEN {
-                moved[k] = xy(simd, &now[k]) - xy(simd, &then[k]);
-            }
-            let [dx, dy] = V::columns(&moved);
-            farthest = (dx * dx + dy * dy).max(farthest);
-        }
-        let squares = rest.map(|(now, then)| [now[0] - then[0], now[1] - then[1]]);
-        squares
-            .map(|[dx, dy]| dx * dx + dy * dy)
-            .fold(largest(farthest), f64::max)
+        let Self { walls: near, .. } = self;
+        search.find(threads, &mut near.bodies, &mut near.parts);
+        near.lengths.resize(near.bodies.len(), 0.0);
+        contacts.renew(&near.bodies, &near.lengths, &mut near.scratch);
     }
 }
 
@@ -152,6 +119,7 @@ impl LaneWork for Farthest<'_> {
 mod tests {
     use super::super::contacts::SpringMemory;
     use super::*;
+    use crate::engine::threads::OneThread;
     use rand_pcg::Pcg64;
     use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -173,6 +141,7 @@ mod tests {
             let margin = 0.003;
             let mut pairs = ContactList::default();
             NeighbourList::new(0.01, 100).find_pairs(
+                &OneThread,
                 Cloud {
                     positions: &places,
                     radii: &radii,
@@ -204,7 +173,7 @@ mod tests {
         };
         let mut list = NeighbourList::new(0.01, 100);
         let mut pairs = ContactList::default();
-        list.find_pairs(cloud, &mut pairs);
+        list.find_pairs(&OneThread, cloud, &mut pairs);
         let mut found: Vec<Pair> = pairs.iter().collect();
         assert_eq!(found.len(), 2);
         let spring = SpringMemory {
@@ -214,7 +183,7 @@ mod tests {
         };
         found[1].spring = spring;
         pairs = found.into();
-        list.find_pairs(cloud, &mut pairs);
+        list.find_pairs(&OneThread, cloud, &mut pairs);
         let springs: Vec<_> = pairs.iter().map(|pair| pair.spring).collect();
         assert_eq!(springs, [SpringMemory::OPEN, spring]);
     }

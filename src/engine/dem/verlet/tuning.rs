@@ -3,10 +3,11 @@
 use crate::contact::NormalForce;
 use crate::drive::Drive;
 use crate::engine::dem::fixed_grid::GridState;
+use crate::engine::threads::Threads;
 
 use super::{Disks, Integrator, PredictorCorrector, SpringMemory};
 
-impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
+impl<I: Integrator, N: NormalForce, T: Threads> PredictorCorrector<I, N, T> {
     /// From the state on with this friction coefficient and gravity \[m/s2\].
     ///
     /// The forces are those of the state under the new laws. A tangential spring that is stretched beyond the new limit of friction
@@ -35,7 +36,7 @@ impl<I: Integrator, N: NormalForce> PredictorCorrector<I, N> {
             state.contacts = 0;
         }
         self.force.copy_from_slice(&self.weight);
-        let sums = self.evaluate(state, 0.0);
+        let sums = self.evaluate(state, 0.0, false);
         self.carry_moved_disks(state, 0.0);
         let accelerations = state.disks.acceleration.iter_mut();
         for (acceleration, (force, inverse)) in accelerations.zip(self.force.iter().zip(&self.inverse_mass)) {

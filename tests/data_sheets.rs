@@ -153,7 +153,7 @@ fn what_is_driven_from_inside_moves_with_the_default_parameters() {
 #[test]
 fn no_start_value_is_outside_of_what_is_recommended_and_each_scene_recommends() {
     for (component, name) in components() {
-        let mut simulation = (component.model().prepare)(component.structure().clone());
+        let mut simulation = (component.model().unwrap().prepare)(component.structure().clone());
         simulation.start(0.0).unwrap();
         assert_eq!(simulation.warnings(&[]), [], "{name}");
         let recommended = component

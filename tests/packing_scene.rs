@@ -5,9 +5,11 @@
 mod support;
 
 use jostle::Error;
+use jostle::contact::LinearDashpot;
 use jostle::drive::{FollowsInput, Sine};
 use jostle::engine::dem::event_located::EventStepper;
 use jostle::engine::dem::verlet::{Gear5, PredictorCorrector, VelocityVerlet};
+use jostle::engine::threads::ThreadPool;
 use jostle::packing::{RadiusDistribution, advancing_front, mirrored};
 use jostle::scene::base_drive::BaseDrive;
 use jostle::scene::packing::soft::SoftMethod;
@@ -15,8 +17,8 @@ use jostle::scene::packing::{PackingOnInput, PackingOnSine, SoftPacking};
 use jostle::scene::{Model, Simulation, Value};
 use support::{order, simulation_of};
 
-type Verlet = PredictorCorrector<VelocityVerlet>;
-type Gear = PredictorCorrector<Gear5>;
+type Verlet = PredictorCorrector<VelocityVerlet, LinearDashpot, ThreadPool>;
+type Gear = PredictorCorrector<Gear5, LinearDashpot, ThreadPool>;
 
 /// Amplitude of the base for Gamma at 80 Hz.
 fn at_gamma(gamma: f64) -> (&'static str, f64) {

@@ -71,7 +71,7 @@ fn growth(model: &ModelType) -> f64 {
 
 #[test]
 fn reference_trajectories_are_short() {
-    let grown: Vec<f64> = MODELS.iter().map(growth).collect();
+    let grown: Vec<f64> = MODELS.iter().copied().map(growth).collect();
     assert!(
         grown.iter().any(|grown| *grown > 0.0),
         "gravity has no effect: {grown:?}"

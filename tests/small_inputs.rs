@@ -4,9 +4,11 @@
 
 mod support;
 
+use jostle::contact::LinearDashpot;
 use jostle::drive::Sine;
 use jostle::engine::dem::event_located::EventStepper;
 use jostle::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
+use jostle::engine::threads::ThreadPool;
 use jostle::scene::disk_on_two_supports::DiskOnTwoSupportsOnInput;
 use jostle::scene::disks_on_base::DisksOnBase;
 use jostle::scene::packing::event_driven::{HardPackingOnInput, HardPackingOnSine};
@@ -15,7 +17,7 @@ use jostle::scene::packing::{LocatedPackingOnInput, LocatedPackingOnSine, Packin
 use jostle::scene::{Model, Simulation, StructuralParameters, Value};
 use support::simulation_of;
 
-type Verlet = PredictorCorrector<VelocityVerlet>;
+type Verlet = PredictorCorrector<VelocityVerlet, LinearDashpot, ThreadPool>;
 
 /// A packing of soft disks on a sine of 1 mm at 50 Hz.
 fn shaken<M: SoftMethod>(disks: u32, given: &[(&str, f64)]) -> Simulation<SoftPacking<M, Sine>> {

@@ -5,11 +5,13 @@
 mod support;
 
 use jostle::collision::Smooth;
+use jostle::contact::LinearDashpot;
 use jostle::drive::{Drive, FollowsInput, Sine};
 use jostle::engine::dem::event_located::EventStepper;
 use jostle::engine::dem::verlet::{PredictorCorrector, VelocityVerlet};
 use jostle::engine::dem::{FixedGrid, SoftDiskSetup, Stepper};
 use jostle::engine::event_driven::{EventDriven, Moving, Open, Region, Settings, Unobserved, Walls};
+use jostle::engine::threads::ThreadPool;
 use jostle::engine::{Engine, event_driven};
 use jostle::geometry::{Disk, Vector2, Wall};
 use jostle::scene::packing::event_driven::HardPackingOnSine;
@@ -23,7 +25,7 @@ use support::soft_disks::{RADIUS, at_rest, laws, mass};
 const GRAVITY: f64 = 9.8;
 
 /// One disk on a floor at rest, as deep in it as its weight presses it, with a horizontal velocity of 1 m/s.
-fn sliding<S: Stepper<Normal = jostle::contact::LinearDashpot>>(
+fn sliding<S: Stepper<Normal = LinearDashpot>>(
     friction: f64,
     push: impl FnOnce(&mut S::Disks),
 ) -> FixedGrid<S, FollowsInput> {
@@ -47,10 +49,10 @@ fn sliding<S: Stepper<Normal = jostle::contact::LinearDashpot>>(
     engine
 }
 
-type VerletStepper = PredictorCorrector<VelocityVerlet>;
+type VerletStepper = PredictorCorrector<VelocityVerlet, LinearDashpot, ThreadPool>;
 
 /// v' = -mu g and R omega' = 2 mu g while the disk slides. Springs that stretch first delay that by far less than a millisecond.
-fn slides_as_its_friction_says<S: Stepper<Normal = jostle::contact::LinearDashpot>>(push: impl FnOnce(&mut S::Disks)) {
+fn slides_as_its_friction_says<S: Stepper<Normal = LinearDashpot>>(push: impl FnOnce(&mut S::Disks)) {
     let mut engine = sliding::<S>(0.05, push);
     let (mut velocity, mut surface) = (1.0, 0.0);
     for (index, friction) in [0.05, 0.2, 0.02, 0.0, 0.1].into_iter().enumerate() {
@@ -75,7 +77,7 @@ fn a_disk_that_slides_is_braked_by_the_friction_of_the_time() {
 }
 
 /// A disk above the floor: parabola after parabola, exact for both methods.
-fn falls_as_gravity_says<S: Stepper<Normal = jostle::contact::LinearDashpot>>(lift: impl FnOnce(&mut S::Disks)) {
+fn falls_as_gravity_says<S: Stepper<Normal = LinearDashpot>>(lift: impl FnOnce(&mut S::Disks)) {
     let mut engine = sliding::<S>(0.1, lift);
     let (mut height, mut velocity) = (1.0, 0.0);
     for (index, gravity) in [GRAVITY, 1.6, 0.0, 24.8].into_iter().enumerate() {

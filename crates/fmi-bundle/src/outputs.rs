@@ -14,7 +14,7 @@ use crate::libraries::Libraries;
 /// made where `out` ends with a `/`.
 ///
 /// # Errors
-/// `out` is no folder and there are two versions; as of [`write`].
+/// `out` is no folder and there are two versions; as of [`write()`].
 pub fn write_versions(
     component: &Component,
     versions: &[Version],

@@ -32,7 +32,7 @@ fn numbers<C: Calls>(library: &Library, token: &str) -> Vec<f64> {
         }
     };
     read(&mut numbers);
-    assert_eq!(instance.step(0.0, STEP), Ok);
+    assert_eq!(instance.step(0.0, STEP), Ok, "FMI {}", C::VERSION);
     let mut state = null_mut();
     assert_eq!(instance.save(&mut state), Ok);
     assert_eq!(instance.set(&INPUTS, &[7.0; 10]), Ok);

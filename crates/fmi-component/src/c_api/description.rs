@@ -59,8 +59,11 @@ pub unsafe fn describe(model: &ModelType, choices: *const c_char, environment: O
 #[macro_export]
 macro_rules! __export_description {
     ($model:expr) => {
-        #[allow(unsafe_code, unused_qualifications)] // an exported name; a path that the module `fmi2` needs
-        const _: () = {
+        /// The description of the model.
+        #[allow(unsafe_code)] // an exported name
+        mod description {
+            use super::*; // in a module, as the functions of FMI are: a path of the caller means the same in all three
+
             static MODEL: &$crate::ModelType = $model;
 
             #[unsafe(no_mangle)]
@@ -72,6 +75,6 @@ macro_rules! __export_description {
                 // SAFETY: the caller's promise about its pointers, passed on unchanged.
                 unsafe { $crate::c_api::description::describe(MODEL, choices, environment, take) }
             }
-        };
+        }
     };
 }

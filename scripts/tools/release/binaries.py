@@ -38,15 +38,16 @@ SYSTEM = frozenset({"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "
 """All parts of glibc; nothing else may be asked for."""
 
 NEEDED = (
-    ("jostle_packing_event_driven", ("engine::event_driven", "scene::packing")),
-    ("jostle_packing_located", ("engine::dem::event_located", "scene::packing")),
+    ("jostle_packing_event_driven", ("engine::event_driven", "engine::dem::verlet", "scene::packing")),
+    ("jostle_packing_located", ("engine::dem::event_located", "engine::dem::verlet", "scene::packing")),
     ("jostle_packing", ("engine::dem::verlet", "scene::packing")),
     ("jostle_ratchet", ("engine::event_driven", "scene::ratchet")),
     ("jostle_wedge_molecular_dynamics", ("engine::dem::verlet", "scene::wedge")),
     ("jostle_wedge", ("engine::wedge::DiskInWedge", "scene::wedge")),
     ("jostle_three_disk", ("engine::disk_on_two_supports", "scene::disk_on_two_supports")),
 )
-"""Modules and types of the crate jostle in a library, by the beginning of its name; the first that fits counts."""
+"""Modules and types of the crate jostle in a library, by the beginning of its name; the first that fits counts.
+Disks of every packing settle at the start by velocity Verlet."""
 
 MODULES = frozenset(module for _, modules in NEEDED for module in modules)
 """A library holds those of them that it needs and no other."""
@@ -55,7 +56,7 @@ NOWHERE = ("quick_xml::", "clap", "scene::catalogue", "toml", "fmi_bundle::")
 """Words that no FMU's library may have: the command line, the writing of FMUs, the table of all scenes."""
 
 INPUTS = "FollowsInput"
-"""Type that a library of a drive without inputs does not need."""
+"""Type that a library of a drive without inputs does not need, but for settling on a base at rest."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +84,7 @@ def strangers(library: Path) -> list[str]:
     name = library.stem.removeprefix("lib")
     needed = next((modules for start, modules in NEEDED if name.startswith(start)), ())
     words = [*NOWHERE, *sorted(MODULES.difference(needed))]
-    if not name.endswith("_input") and _has_twin(library):
+    if not name.endswith("_input") and "scene::packing" not in needed and _has_twin(library):
         words.append(INPUTS)
     return [symbol for symbol in symbols(library) if any(word in symbol for word in words)]
 
@@ -121,6 +122,19 @@ def scenes() -> dict[str, tuple[str, str, str]]:
     return found
 
 
+LABORATORY = ("accelerometer", "camera", "gamma_controller", "loudspeaker", "spectral_amplitude")
+"""Components of the shaker laboratory, as `jostle fmu` knows them; each library has the name after `jostle_`."""
+
+
+def components() -> dict[str, tuple[str, list[str]]]:
+    """Name of the files of its FMUs, and arguments of `jostle fmu`, of each library, by its name such as `jostle_wedge_map`."""
+    of_scenes = {
+        identifier: (f"{scene}-{engine}-{drive}", [scene, "--engine", engine, "--drive", drive])
+        for identifier, (scene, engine, drive) in scenes().items()
+    }
+    return of_scenes | {f"jostle_{name}": (name, [name]) for name in LABORATORY}
+
+
 def bundle(folder: Path, program: Path) -> list[tuple[str, list[Path]]]:
     """Have `program` write an FMU of each version for every library of this machine in `folder`.
 
@@ -130,13 +144,13 @@ def bundle(folder: Path, program: Path) -> list[tuple[str, list[Path]]]:
     made = []
     out = folder / "fmu"
     out.mkdir(exist_ok=True)
-    for identifier, (scene, engine, drive) in scenes().items():
+    for identifier, (name, chosen) in components().items():
         if not (folder / HOST / f"lib{identifier}.so").is_file():  # --only
             continue
-        files = [out / f"{scene}-{engine}-{drive}.fmi{version}.fmu" for version in (2, 3)]
+        files = [out / f"{name}.fmi{version}.fmu" for version in (2, 3)]
         for version, file in zip((2, 3), files, strict=True):
-            options = ["--engine", engine, "--drive", drive, "--fmi", str(version), "--out", str(file)]
-            output_of([program, "fmu", scene, *options, "--libraries", folder])
+            options = ["--fmi", str(version), "--out", str(file), "--libraries", str(folder)]
+            output_of([program, "fmu", *chosen, *options])
         made.append((identifier, files))
     return made
 
@@ -161,6 +175,7 @@ def release_rows(folder: Path, native: Path) -> list[Row]:
 def title(name: str) -> str:
     """What people call a library or program."""
     other = {"jostle_c": "C library", "jostle": "command line"}
+    other |= {f"jostle_{component}": f"laboratory, {component.replace('_', ' ')}" for component in LABORATORY}
     return other[name] if name in other else ", ".join(scenes()[name])
 
 

@@ -7,7 +7,7 @@ import pytest
 from conftest import RELEASE, ROOT
 
 from jostle_lab.errors import LabError
-from tools.release.binaries import INPUTS, MODULES, OLDEST_GLIBC, SYSTEM, needs, scenes, strangers
+from tools.release.binaries import INPUTS, MODULES, OLDEST_GLIBC, SYSTEM, components, needs, strangers
 from tools.release.verify import in_a_child
 
 LIBRARIES = sorted(RELEASE.glob("libjostle_*.so"))
@@ -21,8 +21,7 @@ SHIPPED = sorted((ROOT / "build" / "release" / "x86_64-linux").glob("libjostle_*
 
 
 def test_every_scene_and_every_component_of_the_laboratory_has_its_library():
-    laboratory = ("loudspeaker", "accelerometer", "spectral_amplitude", "camera", "gamma_controller")
-    names = (*scenes(), "jostle_c", *(f"jostle_{name}" for name in laboratory))
+    names = (*components(), "jostle_c")
     assert {library.stem for library in LIBRARIES} == {f"lib{name}" for name in names}
 
 

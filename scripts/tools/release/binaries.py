@@ -127,7 +127,7 @@ LABORATORY = ("accelerometer", "camera", "gamma_controller", "loudspeaker", "spe
 
 
 def components() -> dict[str, tuple[str, list[str]]]:
-    """Name of the files of its FMUs, and arguments of `jostle fmu`, of each library, by its name such as `jostle_wedge_map`."""
+    """Name of the files of the FMUs, and arguments of `jostle fmu`, of each library, by its name."""
     of_scenes = {
         identifier: (f"{scene}-{engine}-{drive}", [scene, "--engine", engine, "--drive", drive])
         for identifier, (scene, engine, drive) in scenes().items()

@@ -64,7 +64,8 @@ SYSTEMS = {
 }
 """By the names that FMI 3.0 has for them."""
 
-BESIDES = r"(userenv|ws2_32|advapi32|bcrypt|shell32|ole32|user32)\.dll|/System/Library/Frameworks/\S+|/usr/lib/lib(iconv|charset)\S+"
+BESIDES = r"(userenv|ws2_32|advapi32|bcrypt|shell32|ole32|user32)\.dll|/System/Library/Frameworks/\S+"
+BESIDES += r"|/usr/lib/lib(iconv|charset)\S+"
 """Other parts of every such system, which the C library and the command line need: all of Rust's `std` is in them."""
 
 

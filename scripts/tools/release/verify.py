@@ -5,6 +5,7 @@ us; and a panic inside of a scene, which a small FMU made for tests provokes, st
 """
 
 import multiprocessing
+import re
 import tempfile
 import zipfile
 from collections.abc import Callable
@@ -21,8 +22,8 @@ from jostle_lab.programs import completed
 from jostle_lab.tables import parse_csv
 from tools.release.binaries import HOST
 
-REFERENCE = "extra/jostle/reference.csv"
-"""Where an FMU keeps its reference trajectory."""
+REFERENCE = re.compile(r"extra/[^/]+/reference\.csv")
+"""Where an FMU keeps its reference trajectory: the folder has the name of the crate of the model."""
 
 STEP = 1e-2
 """Communication step of the probe [s]."""
@@ -45,7 +46,7 @@ def verify(folder: Path, probes: list[Path]) -> list[str]:
             problems = validate_fmu(str(fmu))
             _hold(not problems, f"fmpy's validator finds in {fmu}: {problems}")
             counts.append(_along_the_reference(fmu))
-        done.append(f"{two.name.removesuffix('.fmi2.fmu')}: {counts[0]} outputs to the bit, FMI 2.0 and 3.0")
+        done.append(f"{two.name.removesuffix('.fmi2.fmu')}: {counts[0]} outputs to the bit in fmpy, FMI 2.0 and 3.0")
     _hold(bool(done), f"there is no FMU in {folder / 'fmu'}. Run scripts/release")
     for probe in probes:
         in_a_child(_panic_stays_in_its_instance, probe)
@@ -59,9 +60,10 @@ def _replayed(program: Path, fmu: Path) -> None:
 
 
 def _along_the_reference(fmu: Path) -> int:
-    """Runs an FMU in fmpy with the inputs of its reference; how many outputs there are, each as in the reference."""
+    """Runs an FMU in fmpy with the inputs of its reference; how many outputs were as in the reference, to the bit."""
     with zipfile.ZipFile(fmu) as archive:
-        reference = parse_csv(archive.read(REFERENCE).decode())
+        name = next(name for name in archive.namelist() if REFERENCE.fullmatch(name))
+        reference = parse_csv(archive.read(name).decode())
     description = read_model_description(str(fmu))
     inputs = [variable.name for variable in description.modelVariables if variable.causality == "input"]
     outputs = [name for name in reference if name not in ("time", *inputs)]
@@ -75,6 +77,10 @@ def _along_the_reference(fmu: Path) -> int:
     except FMICallException as error:
         raise LabError(f"{fmu} does not run in fmpy: {error}") from error
     _hold(len(simulated) == len(time), f"{fmu}: fmpy took {len(simulated)} points, the reference has {len(time)}")
+    # fmpy takes equal steps. Where the points of the reference are rounded, its own differ in their last bits, and bits
+    # can only be compared by `jostle replay`.
+    if np.ptp(np.diff(time)) > 0.0:
+        return 0
     for name in outputs:
         _hold(
             bool(np.array_equal(simulated[name], reference[name])),

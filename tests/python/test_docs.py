@@ -216,6 +216,15 @@ def test_files_of_the_command_line_are_read_in_python():
     assert "unit: m/s\nTrue 25.0\n" in seen
 
 
+def test_a_large_packing_has_the_same_bits_on_two_threads_as_on_one():
+    command = snippet(PHYSICIST, "sh", "threads")
+    shell(command)
+    two = (BUILD / "large.csv").read_text()
+    shell(command.replace("threads=2", "threads=1"))
+    assert len(two.splitlines()) == 4
+    assert (BUILD / "large.csv").read_text() == two
+
+
 def test_stopped_run_goes_on_with_the_same_bits():
     assert shell(snippet(FILES, "sh", "resume")).endswith("the same\n")
 

@@ -88,6 +88,46 @@ fn in_parts<W: Divisible>(threads: &impl Threads, work: W, parts: usize) -> W::O
     W::merged(one, other)
 }
 
+/// Does `work` on each of the items, which come with their numbers.
+pub fn share_each<I: Send>(threads: &impl Threads, items: &mut [I], work: impl Fn(usize, &mut I) + Sync) {
+    let (first, work) = (0, &work);
+    share(threads, Each { first, items, work });
+}
+
+struct Each<'a, I, W> {
+    /// Number of the first item.
+    first: usize,
+    items: &'a mut [I],
+    work: &'a W,
+}
+
+impl<I: Send, W: Fn(usize, &mut I) + Sync> Divisible for Each<'_, I, W> {
+    type Output = ();
+
+    fn units(&self) -> usize {
+        self.items.len()
+    }
+
+    fn split_at(self, units: usize) -> (Self, Self) {
+        let (items, items_after) = self.items.split_at_mut(units);
+        let one = Self { items, ..self };
+        let other = Self {
+            first: one.first + units,
+            items: items_after,
+            ..one
+        };
+        (one, other)
+    }
+
+    fn run(self) {
+        for (number, item) in (self.first..).zip(self.items) {
+            (self.work)(number, item);
+        }
+    }
+
+    fn merged((): (), (): ()) {}
+}
+
 #[cfg(target_family = "wasm")]
 pub use alone::ThreadPool;
 #[cfg(not(target_family = "wasm"))]

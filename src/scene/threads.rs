@@ -19,8 +19,10 @@ pub fn row<M>() -> Row<M> {
         NAME,
         1..=MOST,
         1,
-        "Threads that share the work of a time step; no result depends on them. Packings of fewer than 2500 disks are computed by one. \
-         No state holds this: one that is restored goes on with the threads that there are",
+        &format!(
+            "Threads that share the work of a time step; no result depends on them. Packings of fewer than {LEAST_DISKS} disks are \
+             computed by one. No state holds this: one that is restored goes on with the threads that there are"
+        ),
     )
     .outside_states()
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::engine::threads::{Divisible, Threads, share};
+use crate::engine::threads::{Threads, share_each};
 
 /// Disks sorted into cells by counting. Scratch memory: nothing in it outlives a search.
 #[derive(Debug, Clone, Default)]
@@ -55,13 +55,10 @@ impl CellGrid {
         }
         let mut parts = std::mem::take(&mut self.parts);
         parts.resize(disks.div_ceil(PART), Part::default());
-        let search = Search {
-            grid: self,
-            cloud,
-            first: 0,
-            parts: &mut parts,
-        };
-        share(threads, search);
+        share_each(threads, &mut parts, |n, Part { near, pairs }| {
+            pairs.clear();
+            self.find_of(cloud, n * PART..((n + 1) * PART).min(disks), near, pairs);
+        });
         parts.iter().for_each(|part| pairs.extend_from_slice(&part.pairs));
         self.parts = parts;
     }
@@ -142,45 +139,6 @@ impl CellGrid {
         }
         near.sort_unstable();
     }
-}
-
-/// Parts of the disks whose pairs are searched.
-struct Search<'a> {
-    grid: &'a CellGrid,
-    cloud: Cloud<'a>,
-    /// Number of the first part.
-    first: usize,
-    parts: &'a mut [Part],
-}
-
-impl Divisible for Search<'_> {
-    type Output = ();
-
-    fn units(&self) -> usize {
-        self.parts.len()
-    }
-
-    fn split_at(self, units: usize) -> (Self, Self) {
-        let (parts, parts_after) = self.parts.split_at_mut(units);
-        let one = Self { parts, ..self };
-        let other = Self {
-            first: one.first + units,
-            parts: parts_after,
-            ..one
-        };
-        (one, other)
-    }
-
-    fn run(self) {
-        let count = self.cloud.positions.len();
-        for (n, Part { near, pairs }) in (self.first..).zip(self.parts) {
-            pairs.clear();
-            self.grid
-                .find_of(self.cloud, n * PART..((n + 1) * PART).min(count), near, pairs);
-        }
-    }
-
-    fn merged((): (), (): ()) {}
 }
 
 #[cfg(test)]

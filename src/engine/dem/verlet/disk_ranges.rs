@@ -5,7 +5,7 @@ use std::ops::Range;
 use fearless_simd::{Simd, SimdBase, f64x2};
 
 use crate::engine::dem::lanes::{MOST_LANES, xy};
-use crate::engine::threads::{Divisible, Threads, share};
+use crate::engine::threads::{Threads, share_each};
 
 use super::contact_list::ContactList;
 use super::contacts::Pair;
@@ -45,32 +45,7 @@ pub fn divide(threads: &impl Threads, ranges: &mut [DiskRange], pairs: &ContactL
     for (n, range) in ranges.iter_mut().enumerate() {
         range.disks = start(n)..start(n + 1);
     }
-    share(threads, FindPairs { ranges, pairs });
-}
-
-struct FindPairs<'a> {
-    ranges: &'a mut [DiskRange],
-    pairs: &'a ContactList<Pair>,
-}
-
-impl Divisible for FindPairs<'_> {
-    type Output = ();
-
-    fn units(&self) -> usize {
-        self.ranges.len()
-    }
-
-    fn split_at(self, units: usize) -> (Self, Self) {
-        let (one, other) = self.ranges.split_at_mut(units);
-        let pairs = self.pairs;
-        (Self { ranges: one, pairs }, Self { ranges: other, pairs })
-    }
-
-    fn run(self) {
-        self.ranges.iter_mut().for_each(|range| range.find_pairs(self.pairs));
-    }
-
-    fn merged((): (), (): ()) {}
+    share_each(threads, ranges, |_, range| range.find_pairs(pairs));
 }
 
 impl DiskRange {

@@ -15,8 +15,7 @@ use super::{Disks, Integrator, PredictorCorrector};
 
 impl<I: Integrator, N: NormalForce, T: Threads> PredictorCorrector<I, N, T> {
     /// Forces at the present positions, velocities and base motion, into `self.force`, with the arcs of the present angles if
-    /// `has_arcs`. Compiled with tangential springs and
-    /// without, so that the loops hold no branch on it.
+    /// `has_arcs`. Compiled with tangential springs and without, so that the loops hold no branch on it.
     pub(super) fn evaluate<D>(&mut self, state: &mut GridState<D, Disks>, duration: f64, has_arcs: bool) -> ForceSums {
         if self.constants.setup.laws.tangential.acts() {
             if !has_arcs {

@@ -2,7 +2,7 @@
 
 use crate::engine::dem::candidates::near_walls;
 use crate::engine::dem::cell_grid::Cloud;
-use crate::engine::threads::{Divisible, Threads, share};
+use crate::engine::threads::{Threads, share_each};
 use crate::geometry::Wall;
 
 /// Disks of a part that several threads search.
@@ -29,51 +29,11 @@ impl NearWalls<'_> {
             return;
         }
         parts.resize(disks.div_ceil(PART), Vec::new());
-        share(
-            threads,
-            Search {
-                of: self,
-                first: 0,
-                parts,
-            },
-        );
+        share_each(threads, parts, |n, part| {
+            let disks = n * PART..((n + 1) * PART).min(disks);
+            part.clear();
+            part.extend(near_walls(self.cloud, self.walls, self.base, disks));
+        });
         parts.iter().for_each(|part| near.extend_from_slice(part));
     }
-}
-
-struct Search<'a> {
-    of: NearWalls<'a>,
-    /// Number of the first part.
-    first: usize,
-    parts: &'a mut [Vec<[u32; 2]>],
-}
-
-impl Divisible for Search<'_> {
-    type Output = ();
-
-    fn units(&self) -> usize {
-        self.parts.len()
-    }
-
-    fn split_at(self, units: usize) -> (Self, Self) {
-        let (parts, parts_after) = self.parts.split_at_mut(units);
-        let one = Self { parts, ..self };
-        let other = Self {
-            first: one.first + units,
-            parts: parts_after,
-            ..one
-        };
-        (one, other)
-    }
-
-    fn run(self) {
-        let NearWalls { cloud, walls, base } = self.of;
-        for (n, part) in (self.first..).zip(self.parts) {
-            let disks = n * PART..((n + 1) * PART).min(cloud.radii.len());
-            part.clear();
-            part.extend(near_walls(cloud, walls, base, disks));
-        }
-    }
-
-    fn merged((): (), (): ()) {}
 }

@@ -33,6 +33,7 @@ pub static ALL: [(&str, ModelType); 7] = [
     ("van_der_pol", model::<VanDerPol>()),
 ];
 
-const fn model<E: Export>() -> ModelType {
+/// The model of a component.
+pub const fn model<E: Export>() -> ModelType {
     ModelType::of::<E::Model>()
 }

@@ -14,6 +14,6 @@ mod library {
     pub const LONGEST_STEP: f64 = 10.0;
 
     pub fn tokens() -> (Vec<String>, usize) {
-        super::harness::tokens::of(&reference_models::ALL[6].1, &[&[]])
+        super::harness::tokens::of(&reference_models::model::<reference_models::VanDerPol>(), &[&[]])
     }
 }

@@ -210,13 +210,13 @@ impl Saved {
             1 => (
                 quote! { ::std::vec::Vec<f64> },
                 quote! { self.#ident.to_vec() },
-                quote! { ::fmi_component::derived::keep(&self.#ident[..], &mut state.#ident); },
+                quote! { ::std::borrow::ToOwned::clone_into(&self.#ident[..], &mut state.#ident); },
                 quote! { ::fmi_component::derived::copy(&state.#ident, &mut self.#ident[..])?; },
             ),
             _ => (
                 quote! { ::std::vec::Vec<f64> },
                 quote! { self.#ident.as_flattened().to_vec() },
-                quote! { ::fmi_component::derived::keep(self.#ident.as_flattened(), &mut state.#ident); },
+                quote! { ::std::borrow::ToOwned::clone_into(self.#ident.as_flattened(), &mut state.#ident); },
                 quote! { ::fmi_component::derived::copy(&state.#ident, self.#ident.as_flattened_mut())?; },
             ),
         };

@@ -148,14 +148,6 @@ pub fn derive<M>(rows: &mut [Row<M>], derivative: &str) {
     }
 }
 
-/// Puts the elements of an array in the place of those that were saved before.
-pub fn keep(array: &[f64], saved: &mut Vec<f64>) {
-    match saved.len() == array.len() {
-        true => saved.copy_from_slice(array),
-        false => *saved = array.to_vec(),
-    }
-}
-
 /// Copies the saved elements of an array.
 ///
 /// # Errors

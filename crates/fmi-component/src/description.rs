@@ -201,6 +201,17 @@ mod tests {
         assert_eq!(read.structure().unwrap().get("bodies"), 4);
     }
 
+    /// A regression test: whoever changes these bytes counts [`FORMAT`] up, since a program of before would misread them.
+    #[test]
+    fn the_format_has_another_number_when_the_bytes_change() {
+        let bytes = Description::of(&MODEL, "").unwrap().to_bytes().unwrap();
+        let text = bytes.iter().position(|byte| *byte == b'\n').unwrap();
+        let sum = bytes[text..]
+            .iter()
+            .fold(0_u64, |sum, byte| sum.wrapping_mul(31).wrapping_add(u64::from(*byte)));
+        assert_eq!((FORMAT, bytes.len() - text, sum), (1, 458, 15_724_025_704_065_282_302));
+    }
+
     #[test]
     fn choices_that_the_model_does_not_take_are_refused() {
         for (choices, words) in [

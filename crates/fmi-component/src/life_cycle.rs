@@ -18,6 +18,16 @@ pub enum Version {
     Three,
 }
 
+impl Version {
+    /// As the standards write it, such as `2.0`.
+    pub const fn number(self) -> &'static str {
+        match self {
+            Self::Two => "2.0",
+            Self::Three => "3.0",
+        }
+    }
+}
+
 /// Where an instance is in its life.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {

@@ -59,9 +59,8 @@ pub unsafe fn describe(model: &ModelType, choices: *const c_char, environment: O
 #[macro_export]
 macro_rules! __export_description {
     ($model:expr) => {
-        /// The description of the model.
-        #[allow(unsafe_code)] // an exported name
-        mod description {
+        #[allow(unsafe_code, non_snake_case)] // an exported name; a name that no module of the caller has
+        mod __fmi_component_description {
             use super::*; // in a module, as the functions of FMI are: a path of the caller means the same in all three
 
             static MODEL: &$crate::ModelType = $model;

@@ -49,15 +49,17 @@ pub fn check(fmu: &Path) -> Result<CheckReport> {
 
 fn check_contents(document: &Document<'_>, members: &[Member], report: &mut CheckReport) {
     let described = Described::read(document);
-    let (grammar, number) = match described.version {
-        Version::Two => (include_str!("check/fmi2.txt"), "2.0"),
-        Version::Three => (include_str!("check/fmi3.txt"), "3.0"),
+    let grammar = match described.version {
+        Version::Two => include_str!("check/fmi2.txt"),
+        Version::Three => include_str!("check/fmi3.txt"),
     };
     Grammar::read(grammar).check(document, PATH, "fmiModelDescription", report);
     names::check(&described, report);
-    report
-        .done
-        .push(format!("FMI {number}: {} variables", described.variables.len()));
+    report.done.push(format!(
+        "FMI {}: {} variables",
+        described.version.number(),
+        described.variables.len()
+    ));
     let libraries = binaries::check(&described, members, report);
     let names: Vec<&str> = libraries.iter().map(|(platform, _)| platform.name()).collect();
     report.done.push(format!(

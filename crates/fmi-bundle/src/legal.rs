@@ -21,17 +21,21 @@ pub fn check(info: &ModelInfo, variables: &[Variable]) -> Result<()> {
 
 /// It is part of file names and of C names.
 fn check_identifier(identifier: &str) -> Result<()> {
-    let is_letter = |byte: u8| byte.is_ascii_alphabetic() || byte == b'_';
-    let rest_fits = identifier.bytes().all(|byte| is_letter(byte) || byte.is_ascii_digit());
-    match identifier.bytes().next() {
-        Some(first) if is_letter(first) && rest_fits => Ok(()),
-        _ => Err(Error::parameter(
+    match is_identifier(identifier) {
+        true => Ok(()),
+        false => Err(Error::parameter(
             "identifier of the model",
             format!("{identifier:?}"),
             "a C identifier: letters, digits and underscores, no digit first",
             "Name the model by one, such as mechanics_pendulum.",
         )),
     }
+}
+
+/// Whether this is an identifier of C.
+pub fn is_identifier(text: &str) -> bool {
+    let is_letter = |byte: u8| byte.is_ascii_alphabetic() || byte == b'_';
+    text.bytes().all(|byte| is_letter(byte) || byte.is_ascii_digit()) && text.bytes().next().is_some_and(is_letter)
 }
 
 /// It is the name of a folder.

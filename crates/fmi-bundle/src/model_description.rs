@@ -41,9 +41,9 @@ pub fn write(component: &Component, version: Version) -> String {
 }
 
 fn root(component: &Component, version: Version) -> Attributes {
-    let (number, token_name) = match version {
-        Version::Two => ("2.0", "guid"),
-        Version::Three => ("3.0", "instantiationToken"),
+    let token_name = match version {
+        Version::Two => "guid",
+        Version::Three => "instantiationToken",
     };
     let (info, notices) = (component.info(), &component.notices);
     // The first part of a variant distinguishes models of one name.
@@ -53,7 +53,7 @@ fn root(component: &Component, version: Version) -> Attributes {
         .collect();
     let optional = |name, value: &str| (!value.is_empty()).then(|| (name, value.to_owned()));
     let mut attributes = vec![
-        ("fmiVersion", number.into()),
+        ("fmiVersion", version.number().into()),
         ("modelName", model_name.join(" ")),
         (token_name, component.token()),
         ("description", info.description.into()),

@@ -61,10 +61,6 @@ fn place(component: &Component, version: Version, out: Option<&Path>) -> Result<
 }
 
 fn about(component: &Component, version: Version, libraries: &Libraries) -> String {
-    let number = match version {
-        Version::Two => "2.0",
-        Version::Three => "3.0",
-    };
     let platforms = libraries.iter().map(|(platform, _)| platform);
     let (held, left): (Vec<_>, Vec<_>) = platforms.partition(|platform| platform.folder(version).is_some());
     let names = |list: Vec<crate::Platform>| {
@@ -73,7 +69,7 @@ fn about(component: &Component, version: Version, libraries: &Libraries) -> Stri
             .collect::<Vec<_>>()
             .join(", ")
     };
-    let mut text = format!("FMI {number} for {}", names(held));
+    let mut text = format!("FMI {} for {}", version.number(), names(held));
     if !left.is_empty() {
         text.push_str(&format!("; FMI 2.0 has no folder for {}", names(left)));
     }

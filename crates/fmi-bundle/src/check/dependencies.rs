@@ -15,6 +15,15 @@ use crate::importer::Instance;
 
 const LIST_IT: &str = "List it, or leave the attribute dependencies out, which stands for all.";
 
+/// A list of dependencies in the model structure.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum List {
+    /// During initialisation.
+    InitialUnknowns,
+    /// After a step.
+    Outputs,
+}
+
 /// What a trial looks at.
 struct Trial<'a> {
     component: &'a Component,
@@ -50,7 +59,7 @@ pub fn check(described: &Described, component: &Component, report: &mut CheckRep
             if let Some(after) = trial.initial(time, &point)? {
                 let changed = trial.changed(&before, &after);
                 trial.note(
-                    &described.initial,
+                    List::InitialUnknowns,
                     described,
                     (TIME_REFERENCE, TIME),
                     &changed,
@@ -69,7 +78,7 @@ pub fn check(described: &Described, component: &Component, report: &mut CheckRep
                 tried += 1;
                 let changed = trial.changed(&before, &after);
                 let cause = trial.cause(position);
-                trial.note(&described.initial, described, cause, &changed, &mut told, report);
+                trial.note(List::InitialUnknowns, described, cause, &changed, &mut told, report);
             }
         }
         tried += trial.after_a_step(described, &point, &mut told, report)?;
@@ -180,14 +189,17 @@ impl<'a> Trial<'a> {
     /// Faults for all of `changed` whose list lacks the cause.
     fn note(
         &self,
-        list: &[Unknown],
+        list: List,
         described: &Described,
         (reference, cause): (u32, &str),
         changed: &[usize],
-        told: &mut BTreeSet<(u32, u32, bool)>,
+        told: &mut BTreeSet<(u32, u32, List)>,
         report: &mut CheckReport,
     ) {
-        let initial = std::ptr::eq(list, described.initial.as_slice());
+        let (unknowns, when) = match list {
+            List::InitialUnknowns => (&described.initial, "InitialUnknowns say, when the model starts"),
+            List::Outputs => (&described.outputs, "Outputs say, at a communication point"),
+        };
         for position in changed {
             let own = value_reference(self.begins[*position]);
             let of = |unknown: &&Unknown| {
@@ -196,7 +208,9 @@ impl<'a> Trial<'a> {
                     .and_then(|index| described.variables[index].reference())
                     == Some(own)
             };
-            let Some(unknown) = list.iter().find(of) else { continue };
+            let Some(unknown) = unknowns.iter().find(of) else {
+                continue;
+            };
             let Some(dependencies) = &unknown.dependencies else {
                 continue;
             };
@@ -204,15 +218,10 @@ impl<'a> Trial<'a> {
                 .iter()
                 .flatten()
                 .filter_map(|index| described.variables[*index].reference());
-            if references.into_iter().any(|known| known == reference) || !told.insert((own, reference, initial)) {
+            if references.into_iter().any(|known| known == reference) || !told.insert((own, reference, list)) {
                 continue;
             }
             let name = self.component.name_at(self.begins[*position]);
-            let when = if initial {
-                "InitialUnknowns say, when the model starts"
-            } else {
-                "Outputs say, at a communication point"
-            };
             report.fault(
                 &unknown.place,
                 format!("{name} changes with {cause}, on which it does not depend as {when}"),
@@ -226,7 +235,7 @@ impl<'a> Trial<'a> {
         &mut self,
         described: &Described,
         point: &[Value],
-        told: &mut BTreeSet<(u32, u32, bool)>,
+        told: &mut BTreeSet<(u32, u32, List)>,
         report: &mut CheckReport,
     ) -> Result<usize> {
         let step = self.component.info().step_size;
@@ -244,14 +253,7 @@ impl<'a> Trial<'a> {
                 {
                     tried += 1;
                     let changed = self.changed(&before, &after);
-                    self.note(
-                        &described.outputs,
-                        described,
-                        self.cause(position),
-                        &changed,
-                        told,
-                        report,
-                    );
+                    self.note(List::Outputs, described, self.cause(position), &changed, told, report);
                 }
             }
             let _ = self.set(position, point[position]);

@@ -9,14 +9,12 @@ use fmi_component::Version;
 use super::description::{Described, DescribedVariable, PATH, Unknown};
 use super::findings::CheckReport;
 use super::grammar::real;
+use crate::legal::is_identifier;
 
 /// Checks identifier, variables and model structure.
 pub fn check(described: &Described, report: &mut CheckReport) {
     let identifier = &described.identifier;
-    let is_letter = |byte: u8| byte.is_ascii_alphabetic() || byte == b'_';
-    let fits = identifier.bytes().all(|byte| is_letter(byte) || byte.is_ascii_digit())
-        && identifier.bytes().next().is_some_and(is_letter);
-    if !fits {
+    if !is_identifier(identifier) {
         let what = format!("modelIdentifier = {identifier:?} is not allowed: a C identifier of CoSimulation");
         report.fault(
             PATH,

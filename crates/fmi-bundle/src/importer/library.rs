@@ -6,14 +6,13 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use fmi_component::c_api::description::{DESCRIBED, REFUSED};
+use fmi_component::c_api::description::{DESCRIBED, REFUSED, Take};
 use fmi_component::description::Description;
 use fmi_component::{Error, Result};
 
 /// Remedy for an FMU whose parts do not fit.
 pub const MAKE_ANEW: &str = "Write the FMU anew.";
 
-type Take = unsafe extern "C" fn(*mut c_void, *const u8, usize);
 type Describe = unsafe extern "C" fn(*const c_char, *mut c_void, Option<Take>) -> c_int;
 
 /// A library in a file of its own, which goes when the value goes.
